@@ -27,7 +27,7 @@ use rule images as rigs_image with:
     input:
         rules.rigs.output.png,
     output:
-        "studies/rigs/images/rigs.png",
+        "docs/images/rigs.png",
     log:
         f"{RESULTS}/logs/rigs_image.log",
     params:

@@ -334,8 +334,8 @@ if "source" not in config["blade"]:
 # The pictures of the pages, with as few colours as each does with
 PICTURES = {
     "docs/images/margins": 48,
-    "studies/variations/robustness/images/robustness": 20,
-    "studies/variations/identification/images/identification": 8,
+    "studies/variations/images/robustness": 20,
+    "studies/variations/images/identification": 8,
 }
 
 

@@ -19,7 +19,7 @@ HOW_TO, STUDY = DOCS / "how-to", DOCS.parent / "studies" / "chart"
         (HOW_TO, HOW_TO, "[a](../../studies/chart/README.md#accuracy)", "[a](../notes/chart.md#accuracy)"),
         (HOW_TO, HOW_TO, "[a](../../studies/of_nobody/README.md#accuracy) b", "a b"),
         (HOW_TO, HOW_TO, "[a](../gallery/07_own_law.py)", "[a](../auto_gallery/07_own_law.rst)"),
-        (STUDY, NOTES, "[a](../variations/robustness/README.md)", "[a](robustness.md)"),
+        (STUDY, NOTES, "[a](../variations/README.md#robustness)", "[a](variations.md#robustness)"),
         (STUDY, NOTES, "![a](images/chart_Y4.png)", "![a](../../studies/chart/images/chart_Y4.png)"),
     ],
 )

@@ -45,7 +45,7 @@ SetName = Annotated[
 
 
 class CalibrationPlan(Section):
-    """Variations of the study, each a small study (studies/variations/calibration)."""
+    """Variations of the study, each a small study (studies/variations)."""
 
     file: Omitted[ConfigFile] = None
     """Laid over the study in every set; as seen from the plan."""
@@ -97,7 +97,7 @@ class SampledPart(PlanPart):
 
 
 class RobustnessPlan(Section):
-    """Factors that vary, and small studies for some of the claims (studies/variations/robustness)."""
+    """Factors that vary, and small studies for some of the claims (studies/variations)."""
 
     seed: Seed
     """Of the scrambling of the Sobol sequence."""
@@ -119,7 +119,7 @@ class CandidateSettings(Section):
 
 
 class IdentificationPlan(Section):
-    """Values of what the paper does not print, in waves (studies/variations/identification)."""
+    """Values of what the paper does not print, in waves (studies/variations)."""
 
     seed: Seed
     """Of everything that is drawn."""
