@@ -16,7 +16,8 @@ while the wall comes at v + gτ. Touching means that the two speeds are one, and
     F(τ) = ρ c (v + gτ) − 2 F(τ − T) − 2 F(τ − 2T) − ...                                       (2)
 
 First contact: F = ρc (v + gτ) for 0 < τ < T. Then (2) would be ρc (2gT − v − gτ), negative after T where
-v > gT: the end leaves. In flight w′ repeats itself with the period T.
+v > gT: the end leaves. The impulse ρc (vT + gT²/2) over ρL is 2v + gT, and the frame has come down to v + gT:
+the centre of mass leaves upward at v again.
 """
 
 from typing import NamedTuple
@@ -53,7 +54,7 @@ class Bar(NamedTuple):
 
 
 DOYEN = Bar(length=10.0, modulus=900.0, density=1.0)
-HEIGHT, SPEED, GRAVITY = 5.0, 10.0, 10.0
+SPEED, GRAVITY = 10.0, 10.0
 """Thrown at 10 m/s without gravity (impacting) or dropped from 5 m with it (bouncing): 10 m/s at touch."""
 
 
@@ -61,36 +62,6 @@ def first_contact_force(bar, speed, gravity, tau):
     """F(τ) of the first contact, Pa; 0 outside of it. Needs ``speed > gravity * bar.crossing``."""
     touching = (tau >= 0) & (tau < bar.crossing)
     return np.where(touching, bar.impedance * (speed + gravity * tau), 0.0)
-
-
-def end_height(bar, speed, gravity, tau):
-    """Height of the end above the wall until the next impact, m: (1) integrated, less the way of the wall."""
-    period, s = np.divmod(tau, bar.crossing)
-    a_period = speed * bar.crossing + gravity * bar.crossing**2 / 2  # what the end climbs in contact
-    climbed = np.where(period < 1, 1.0, 2.0) * (speed * s + gravity * s**2 / 2)
-    climbed = climbed + np.where(period < 1, 0.0, (2 * period - 1) * a_period)
-    return climbed - speed * tau - gravity * tau**2 / 2
-
-
-def rebound_speed(bar, speed, gravity):
-    """Upward speed of the centre of mass when the contact ends.
-
-    The impulse ρc (vT + gT²/2) over ρL is 2v + gT, and the frame has come down to v + gT: it is v again.
-    """
-    impulse = bar.impedance * (speed * bar.crossing + gravity * bar.crossing**2 / 2)
-    return impulse / bar.mass - speed - gravity * bar.crossing
-
-
-def next_impact(bar, speed, gravity):
-    """Time τ when the end meets the wall again, s: in the n-th period `end_height` is a parabola in s."""
-    crossing = bar.crossing
-    n = 1
-    while end_height(bar, speed, gravity, np.nextafter((n + 1) * crossing, 0)) > 1e-12:
-        n += 1
-    start = end_height(bar, speed, gravity, n * crossing)
-    slope = speed - gravity * n * crossing  # 2(v + gs) − v − g(nT + s) at s = 0
-    # start + slope s + g s² / 2 = 0, the lesser root
-    return n * crossing + (-slope - np.sqrt(max(slope**2 - 2 * gravity * start, 0.0))) / gravity
 
 
 def second_contact_force(bar, speed, gravity, tau):

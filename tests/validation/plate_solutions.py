@@ -16,13 +16,8 @@ def twisted(length, chord, thickness, degrees):
     def points(xi, eta, zeta):
         turn = np.deg2rad(degrees) * zeta
         along, across = chord * (xi - 0.5), thickness * (eta - 0.5)
-        return np.stack(
-            [
-                along * np.cos(turn) - across * np.sin(turn),
-                along * np.sin(turn) + across * np.cos(turn),
-                length * zeta,
-            ]
-        )
+        x, y = along * np.cos(turn) - across * np.sin(turn), along * np.sin(turn) + across * np.cos(turn)
+        return np.stack([x, y, length * zeta])
 
     return points
 
@@ -62,18 +57,13 @@ def ritz(points, material, n_modes, terms=(9, 3, 11)):
     gradient = np.einsum("dqn,qdi->iqn", on_cube, np.linalg.inv(jacobian))
     volume = (weight * np.linalg.det(jacobian))[:, None]
     shape = products(0, 0, 0)
-    product = [[(left * volume).T @ right for right in gradient] for left in gradient]
-    laplacian = product[0][0] + product[1][1] + product[2][2]
+    product = np.array([[(left * volume).T @ right for right in gradient] for left in gradient])
     lame, shear = material.lame
-    stiffness = [
-        [
-            lame * product[i][j] + shear * product[j][i] + (shear * laplacian if i == j else 0)
-            for j in range(3)
-        ]
-        for i in range(3)
-    ]
+    stiffness = lame * product + shear * product.swapaxes(0, 1)
+    stiffness[range(3), range(3)] += shear * np.trace(product)
     mass = material.density * np.kron(np.eye(3), (shape * volume).T @ shape)
-    squares = eigh(np.block(stiffness), mass, eigvals_only=True, subset_by_index=[0, n_modes - 1])
+    blocks = np.block([list(row) for row in stiffness])
+    squares = eigh(blocks, mass, eigvals_only=True, subset_by_index=[0, n_modes - 1])
     return np.sqrt(squares) / (2 * np.pi)
 
 

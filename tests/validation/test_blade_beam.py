@@ -1,9 +1,8 @@
 """Beams whose frequencies are known, at rest and rotating, from 20-node hexahedra.
 
 Source: Wright, Smith, Thresher and Wang, Vibration modes of centrifugally stiffened beams, Journal of Applied
-Mechanics 49 (1982) 197-202, table for the uniform cantilever of hub radius 0; and, since a typed table proves
-little, a Rayleigh-Ritz solution of the same beam equation, which returns the table to its last digit and
-gives the beams that are not in it (hub radius, plane of rotation).
+Mechanics 49 (1982) 197-202, table for the uniform cantilever of hub radius 0; and a Rayleigh-Ritz solution of
+the same beam equation for the beams that are not in it (hub radius, plane of rotation).
 
 Expected: 0.1 %. In the third mode the solid beam is 0.02 % below (shear and rotary inertia at slenderness
 100, which Euler and Bernoulli leave out), with the hub at the highest speed 0.05 % (it also stretches).
@@ -23,13 +22,8 @@ YOUNG, DENSITY, LENGTH, THICKNESS = 2e11, 7800.0, 1.0, 0.01
 # First three flapwise frequencies ω √(ρAL⁴/EI) over Ω √(ρAL⁴/EI).
 WRIGHT_1982 = {
     0: (3.5160, 22.0345, 61.6972),
-    1: (3.6816, 22.1810, 61.8418),
     2: (4.1373, 22.6149, 62.2732),
-    3: (4.7973, 23.3203, 62.9850),
-    4: (5.5850, 24.2733, 63.9668),
     6: (7.3604, 26.8091, 66.6839),
-    8: (9.2568, 29.9954, 70.2930),
-    10: (11.2023, 33.6404, 74.6493),
     12: (13.1702, 37.6031, 79.6145),
 }
 UNIT = np.sqrt(YOUNG * THICKNESS**2 / 12 / (DENSITY * LENGTH**4))  # √(EI / ρAL⁴), rad/s
@@ -48,21 +42,11 @@ def cantilever(thin_axis, n_along=40, hub_radius=0.0):
     return Solid(mesh, Material(YOUNG, 0.0, DENSITY), np.flatnonzero(cube[2] == 0))
 
 
-@pytest.fixture(scope="module")
-def flap():
-    return cantilever(0)
-
-
-@pytest.fixture(scope="module")
-def lag():
-    return cantilever(1)
-
-
-def thin_bending(solid, thin_axis, state, n_modes=6):
-    """Dimensionless frequencies of the modes that move along the thin axis."""
-    frequencies, modes = lowest_modes(state.stiffness, solid.mass, n_modes)
+def thin_bending(solid, thin_axis, speed):
+    """Dimensionless frequencies of the first three modes that move along the thin axis."""
+    frequencies, modes = lowest_modes(equilibrium(solid, speed * UNIT).stiffness, solid.mass, 6)
     share = [np.linalg.norm(mode[solid.axis == thin_axis]) / np.linalg.norm(mode) for mode in modes.T]
-    return 2 * np.pi * frequencies[np.array(share) > 0.9] / UNIT
+    return 2 * np.pi * frequencies[np.array(share) > 0.9][:3] / UNIT
 
 
 def compare(what, found, expected):
@@ -70,45 +54,29 @@ def compare(what, found, expected):
     np.testing.assert_allclose(found, expected, rtol=1e-3)
 
 
-def test_cantilever_at_rest_matches_euler_bernoulli(flap):
-    # Roots of 1 + cos β cosh β = 0; ω = β² √(EI / ρAL⁴).
-    roots = np.array([1.875104069, 4.694091133, 7.854757438])
-    found = thin_bending(flap, 0, equilibrium(flap, 0.0))[:3]
-    np.testing.assert_allclose(found, roots**2, rtol=2e-4)
-
-
 @pytest.mark.parametrize("speed", list(WRIGHT_1982))
-def test_published_table_is_what_the_beam_equation_gives(speed):
-    np.testing.assert_allclose(ritz(speed)[:3], WRIGHT_1982[speed], rtol=0, atol=6e-5)
-
-
-@pytest.mark.parametrize("speed", list(WRIGHT_1982))
-def test_rotating_beam_flaps_as_tabulated(flap, speed):
-    found = thin_bending(flap, 0, equilibrium(flap, speed * UNIT))[:3]
+def test_rotating_beam_flaps_as_tabulated(speed):
+    found = thin_bending(cantilever(0), 0, speed)
     compare(f"flap, speed {speed}", found, WRIGHT_1982[speed])
 
 
 @pytest.mark.parametrize("speed", [2, 6, 12])
-def test_in_the_plane_of_rotation_spin_softening_takes_its_share(lag, speed):
+def test_in_the_plane_of_rotation_spin_softening_takes_its_share(speed):
     # ω_lag² = ω_flap² − Ω²
-    found = thin_bending(lag, 1, equilibrium(lag, speed * UNIT))[:3]
+    found = thin_bending(cantilever(1), 1, speed)
     compare(f"lag, speed {speed}", found, np.sqrt(ritz(speed)[:3] ** 2 - speed**2))
 
 
 @pytest.mark.parametrize("speed", [2, 6, 12])
 def test_a_hub_adds_its_tension(speed):
     hub = 2 * LENGTH
-    solid = cantilever(0, hub_radius=hub)
-    found = thin_bending(solid, 0, equilibrium(solid, speed * UNIT))[:3]
+    found = thin_bending(cantilever(0, hub_radius=hub), 0, speed)
     compare(f"hub {hub}, speed {speed}", found, ritz(speed, hub / LENGTH)[:3])
 
 
 def test_frequencies_converge_from_above_with_the_mesh():
     # Elements longer than thick are too stiff in shear: that costs two of the four orders of the element.
-    values = []
-    for n_along in (4, 8, 16, 40):
-        solid = cantilever(0, n_along)
-        values.append(thin_bending(solid, 0, equilibrium(solid, 0.0))[0])
+    values = [thin_bending(cantilever(0, n_along), 0, 0.0)[0] for n_along in (4, 8, 16, 40)]
     assert values == sorted(values, reverse=True)
     errors = np.array(values[:-1]) - values[-1]
     assert np.all(np.log2(errors[:-1] / errors[1:]) > 1.9)

@@ -4,28 +4,24 @@ Source: Doyen, Ern and Piperno, SIAM Journal on Scientific Computing 33 (2011) 2
 these are. Of their four groups of schemes, those that leave the mass of the contact node as it is trigger
 spurious oscillations of the contact force; those that move it off the node (Khenous, Laborde and Renard,
 European Journal of Mechanics A 27 (2008) 918-932) do not. The exponential scheme belongs to the second kind:
-the end of the bar answers a force at once, by the compliance of its condensed modes. So the other one of that
-kind is computed here as well, with as many unknowns, and bounds what is allowed.
+the end of the bar answers a force at once, by the compliance of its condensed modes.
 
 The bar is the sum of its free-free modes ω_k = kπc/L, end displacement 1/√m (k = 0) and √(2/m), and is radial
 at node 1. Gravity is the frame: the bar rests, the rigid casing comes at v + gτ, by its gap.
 
 Expected: rebound time and speed to 0.1 % at 2,000 steps a contact; after the front (the first 20th of the
-contact) a force within 0.1 %, as modified mass gives.
+contact) a force within 0.1 %; at the front a peak of at most 1.5 times (modified mass: 1.3, 640 elements).
 """
 
 from typing import NamedTuple
 
 import numpy as np
 import pytest
-from bar_solutions import DOYEN, GRAVITY, SPEED, first_contact_force, rebound_speed, second_contact_force
+from bar_solutions import DOYEN, GRAVITY, SPEED, first_contact_force, second_contact_force
+from loop_by_hand import simulation
 
-from bladerub.contact.kernel import records
-from bladerub.contact.kernel.free_flight import free_flight
-from bladerub.contact.kernel.loop import Simulation
-from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes
-from bladerub.contact.schemes import Contact, exponential, normal_compliance
+from bladerub.contact.schemes import Contact, exponential
 
 T = DOYEN.crossing
 STEPS = 2001  # in the contact; odd, so that no mode has ω h = π
@@ -48,70 +44,20 @@ def fall(gravity, duration):
     tip_modes[0] = np.sqrt(np.where(k == 0, 1.0, 2.0) / DOYEN.mass)
     modes = Modes(k * np.pi * DOYEN.wave_speed / DOYEN.length, tip_modes, 8)
     step = T / STEPS
-    rule = exponential(modes, 0.0, step, Contact(np.full(8, np.inf), -1.0, 0.0))
-
+    contact = Contact(np.full(8, np.inf), -1.0, 0.0)
+    rule = exponential(modes, 0.0, step, contact)
     n_steps = round((LEAD_IN * T + duration) / step)
     at_centre = (np.arange(n_steps + 3) - 0.5) * step - LEAD_IN * T  # the first element only leads in
     gap = np.full((at_centre.size, 8), 1e6)  # out of reach of all nodes but the first
     gap[:, 0] = -SPEED * at_centre - gravity * at_centre**2 / 2
-    zeros, ones = np.zeros(8), np.ones(8)
-    own = np.diag(normal_compliance(rule.compliance, 8, -1.0, 0.0))
-    stator = records.Stator(
-        initial_gap=gap,
-        minimum_gap=np.full(at_centre.size, -np.inf),
-        law=np.zeros((5, 8)),
-        n_elements=at_centre.size,
-        is_rigid=True,
-        normal_factor=-1.0,
-        tangential_factor=0.0,
-        self_compliance=np.where(own > 0, own, 1.0),  # of nodes that meet nothing
-    )
-    here = records.Tip(
-        start=zeros,
-        per_metre=ones,
-        radius=1e4 * ones,
-        lever=1e4 * ones,
-        half_width=2.0,
-        curvature=0.0,
-        search_range=0.0,
-        limit=1e6,
-    )
-    modal, flight, state = (
-        pack(rule),
-        free_flight(rule, 1, 0.0),
-        records.at_rest(rule.omega.size, at_centre.size),
-    )
+    loop = simulation(rule, contact, gap, radius=1e4, lever=1e4)
     force, speed = np.empty(n_steps), np.empty(n_steps)
     for i in range(n_steps):
-        tip = here._replace(start=np.full(8, i + 1.0))
-        Simulation(modal, flight, stator, tip, state, 1).advance(np.zeros(1))
-        force[i] = -state.force[0, 0]
-        speed[i] = -(state.q[0, 0] - state.q[1, 0]) / step * rule.tip[0, 0]
+        loop.advance(np.zeros(1), i + 1)
+        force[i] = -loop.state.force[0, 0]
+        speed[i] = -(loop.state.q[0, 0] - loop.state.q[1, 0]) / step * rule.tip[0, 0]
     time = step * np.arange(1, n_steps + 1) - LEAD_IN * T
     return History(time, force, speed - SPEED - gravity * (time - step / 2))
-
-
-def modified_mass(gravity, n_elements):
-    """Force of the bar of `n_elements` linear elements whose end node has given its mass to the next."""
-    step, spacing = T / STEPS, DOYEN.length / n_elements
-    mass = np.full(n_elements, DOYEN.density * spacing)  # of all nodes but the end
-    mass[0] *= 1.5
-    mass[-1] /= 2
-    stiffness = DOYEN.modulus / spacing
-    now, before = np.zeros(n_elements), np.zeros(n_elements)
-    time = step * np.arange(STEPS)
-    force = np.empty(STEPS)
-    for i, tau in enumerate(time):
-        force[i] = max(0.0, stiffness * (SPEED * tau + gravity * tau**2 / 2 - now[0]))
-        tension = stiffness * np.diff(now)
-        pull = np.append(tension, 0.0) - np.append(-force[i], tension)
-        now, before = 2 * now - before + step**2 * pull / mass, now
-    return time, force
-
-
-@pytest.fixture(scope="module")
-def impacting():
-    return fall(0.0, 1.5 * T)
 
 
 @pytest.fixture(scope="module")
@@ -126,31 +72,20 @@ def chatter(time, force, exact, start=0.0):
     return error, force[time < start + 0.05 * T].max() / exact[during][0]
 
 
-@pytest.mark.parametrize("case", ["impacting", "bouncing"])
-def test_rebound(case, request):
-    gravity = GRAVITY if case == "bouncing" else 0.0
-    time, force, speed = request.getfixturevalue(case)
+@pytest.mark.parametrize("gravity", [0.0, GRAVITY], ids=["impacting", "bouncing"])
+def test_rebound_without_chatter(gravity, bouncing):
+    time, force, speed = bouncing if gravity else fall(0.0, 1.5 * T)
     pushed = time[(force > 0) & (time < 2 * T)]
     after = (time > 1.2 * T) & (time < 1.4 * T)
     leaving = np.mean(speed[after] + gravity * (time[after] - T))
-    exact = rebound_speed(DOYEN, SPEED, gravity)
     print(f"contact from {pushed[0]:.5f} to {pushed[-1]:.5f} s, speed {leaving:.5f} m/s")
     assert pushed[-1] - pushed[0] == pytest.approx(T, rel=1e-3)
-    assert leaving == pytest.approx(exact, rel=1e-3)
-
-
-@pytest.mark.parametrize("case", ["impacting", "bouncing"])
-def test_force_does_not_chatter(case, request):
-    gravity = GRAVITY if case == "bouncing" else 0.0
-    time, force, _ = request.getfixturevalue(case)
+    assert leaving == pytest.approx(SPEED, rel=1e-3)
     first = time < 2 * T
     found = chatter(time[first], force[first], first_contact_force(DOYEN, SPEED, gravity, time[first]))
-    time, force = modified_mass(gravity, 640)
-    peer = chatter(time, force, first_contact_force(DOYEN, SPEED, gravity, time))
-    print("error and first peak of the force:", found, "modified mass:", peer)
-    assert peer[0] < 1e-3
+    print("error and first peak of the force:", found)
     assert found[0] < 1e-3
-    assert found[1] < 1.15 * peer[1]
+    assert found[1] < 1.5
 
 
 def test_second_impact_of_the_bouncing_bar(bouncing):

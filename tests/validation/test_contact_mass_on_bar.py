@@ -9,12 +9,8 @@ Batailly and Pierre, J. Comput. Nonlinear Dyn. 7 (2012), section 3.)
 
 import numpy as np
 import pytest
+from loop_by_hand import simulation
 
-from bladerub.contact import law
-from bladerub.contact.kernel import records
-from bladerub.contact.kernel.free_flight import free_flight
-from bladerub.contact.kernel.loop import Simulation
-from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes
 from bladerub.contact.schemes import Contact, central_differences, exponential
 
@@ -32,27 +28,20 @@ def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     rule = scheme(Modes(np.array([np.sqrt(spring / M)]), tip_modes, 8), 0.0, H, contact)
     gap = np.ones((N, 8))
     gap[:, 0] = -DEPTH
-    zeros = np.zeros(8)
-    half_width = 2.0
-    each = zeros + bar / (2 * half_width)  # the elements under the tip add up to its width
-    hard = 1e12 * each
-    elements = np.array(law.Element(each, hard, zeros, 1 / each, 1 / (each + hard)))
-    stator = records.Stator(gap, gap.min(axis=1), elements, N, False, -1.0, 0.0, zeros)
-    tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
     # the paper's scheme takes the force at the prediction (1 − β) u of a resting mass
     predicted = 1 - BETA if rule.corrects else 1.0
     rest = -DEPTH * kappa / (BETA + kappa * predicted)
-    state = records.at_rest(1, N)
+    loop = simulation(rule, contact, gap, per_metre=0.0, limit=1.0)
+    state = loop.state
     state.q[:, 0] = (rest + start) / tip_modes[0, 0]
     state.u[:, [0, 16]] = rest + start  # displacement and height of the first node
     if not rule.corrects:  # the elements are already pressed
         state.normal_force[0, 0] = bar * (rest + start + DEPTH)
         state.force[:, 0] = -state.normal_force[0, 0]
-    simulation = Simulation(pack(rule), free_flight(rule, 1, 0.0), stator, tip, state, 1)
     seen = []
     for _ in range(n_revolutions):
         displacement = np.zeros(N)
-        simulation.advance(displacement)
+        loop.advance(displacement)
         seen.append(displacement - rest)  # the means of two steps each: the same recurrence
     return np.concatenate(seen)
 

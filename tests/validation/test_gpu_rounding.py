@@ -32,13 +32,12 @@ def specs(coarse_config):
     rng = np.random.default_rng(1)
     coatings = [case for case in coating_cases(coarse_config) if not case.is_rigid]
     fast = [speed for speed in speeds(coarse_config) if speed > 0.15]  # of few steps a revolution
-    drawn = zip(
-        rng.choice(len(coatings), N_RUNS, replace=False), rng.choice(fast, N_RUNS, replace=False), strict=True
-    )
-    specs = [run_spec(coarse_config, coatings[number], float(speed)) for number, speed in drawn]
+    numbers, drawn = (rng.choice(of, N_RUNS, replace=False) for of in (len(coatings), fast))
     # steps longer than the study's: extended precision takes fifty times as long
+    short = {"revolutions": 1, "steps_per_element": 6, "max_time_step": 4e-6}
     return [
-        dataclasses.replace(spec, revolutions=1, steps_per_element=6, max_time_step=4e-6) for spec in specs
+        dataclasses.replace(run_spec(coarse_config, coatings[number], float(speed)), **short)
+        for number, speed in zip(numbers, drawn, strict=True)
     ]
 
 

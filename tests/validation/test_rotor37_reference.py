@@ -19,31 +19,31 @@ KNOWN = BENCHMARKS / "rotor37"
 impact._march.enable_caching()  # as in tests/unit/extras/verification/test_impact.py: one of both compiles it
 
 
-def computed(config, folder):
-    blade = build(config).reduced
-    folder.mkdir()
-    numbers.of_blade(config, blade).to_csv(folder / "blade.csv", index=False)
-    direct.numbers(direct.runs(config, blade)).to_csv(folder / "direct.csv", index=False)
-    return folder
+@pytest.fixture
+def compared(tmp_path):
+    """Compute the numbers on the coarser mesh, with so many times the stiffness, and compare them."""
+
+    def table(stiffness=1.0):
+        config = copy.deepcopy(reference.plan()["mesh"])
+        config["blade"]["material"]["young_modulus"] *= stiffness
+        blade = build(config).reduced
+        numbers.of_blade(config, blade).to_csv(tmp_path / "blade.csv", index=False)
+        direct.numbers(direct.runs(config, blade)).to_csv(tmp_path / "direct.csv", index=False)
+        return compare(tmp_path, KNOWN)
+
+    return table
 
 
-@pytest.fixture(scope="module")
-def coarse():
-    return reference.plan()["mesh"]
-
-
-def test_a_fresh_calculation_on_a_coarser_mesh_agrees(coarse, tmp_path):
-    table = compare(computed(coarse, tmp_path / "own"), KNOWN)
+def test_a_fresh_calculation_on_a_coarser_mesh_agrees(compared):
+    table = compared()
     assert table.table.unique().tolist() == ["blade", "direct"]
     assert len(table) > 40
     assert table[~table.agrees].empty
 
 
 @pytest.mark.nightly
-def test_five_per_cent_of_stiffness_are_noticed(coarse, tmp_path):
-    stiffer = copy.deepcopy(coarse)
-    stiffer["blade"]["material"]["young_modulus"] *= 1.05
-    table = compare(computed(stiffer, tmp_path / "own"), KNOWN)
+def test_five_per_cent_of_stiffness_are_noticed(compared):
+    table = compared(stiffness=1.05)
     different = set(table[~table.agrees].number)
     assert {"f1_rest", "f1_nominal", "rest_mu0.order_4"} <= different
 

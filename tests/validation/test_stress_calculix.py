@@ -12,14 +12,12 @@ is 5 % above that of CalculiX.
 import shutil
 import subprocess
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import pytest
 import yaml
 
 from bladerub.blade.build import build
-from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
 from bladerub.extras.export.calculix import deck
 from bladerub.extras.stress.nodal import NodalStress, running_displacement, von_mises
@@ -31,25 +29,19 @@ SPEED = 0.4
 pytestmark = pytest.mark.skipif(CCX is None, reason="CalculiX (ccx) is not installed")
 
 
-class Case(NamedTuple):
-    built: BuiltBlade
-    material: Material
-
-    def deck(self, omega: float) -> str:
-        """Input of CalculiX up to its last step, that of the frequencies."""
-        mesh = self.built.mesh
-        text = deck(mesh.mesh.points, mesh.mesh.cells, mesh.root, self.material, omega)
-        return text[: text.rindex("*STEP")]
-
-    def stress(self, running: np.ndarray, displacement: np.ndarray) -> np.ndarray:
-        mesh = self.built.mesh.mesh
-        return NodalStress(mesh.points, mesh.cells, self.material, running)(displacement)
+STUDY = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
+MATERIAL = Material.from_config(STUDY["blade"]["material"])
 
 
 @pytest.fixture(scope="module")
-def case():
-    config = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
-    return Case(build(config), Material.from_config(config["blade"]["material"]))
+def built():
+    return build(STUDY)
+
+
+def deck_of(mesh, omega):
+    """Input of CalculiX up to its last step, that of the frequencies."""
+    text = deck(mesh.mesh.points, mesh.mesh.cells, mesh.root, MATERIAL, omega)
+    return text[: text.rindex("*STEP")]
 
 
 def stress_of_calculix(folder, text):
@@ -63,8 +55,9 @@ def stress_of_calculix(folder, text):
     return six[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
 
 
-def assert_agreement(case, found, expected):
-    z = case.built.mesh.mesh.points[:, 2]
+def assert_agreement(mesh, running, displacement, expected):
+    found = NodalStress(mesh.points, mesh.cells, MATERIAL, running)(displacement)
+    z = mesh.points[:, 2]
     span = (z - z.min()) / np.ptp(z)
     ours, theirs = von_mises(found), von_mises(expected)
     between = (span > 0.1) & (span < 0.9)
@@ -75,22 +68,21 @@ def assert_agreement(case, found, expected):
     assert difference < 0.01
 
 
-def test_stress_of_the_rotation(case, tmp_path):
-    built = case.built
-    rotating = case.deck(2 * np.pi * SPEED * built.reduced.f1_hz)
+def test_stress_of_the_rotation(built, tmp_path):
+    rotating = deck_of(built.mesh, 2 * np.pi * SPEED * built.reduced.f1_hz)
     expected = stress_of_calculix(tmp_path, rotating.replace("*END STEP", "*EL FILE\nS\n*END STEP"))
     running = running_displacement(built.static_speed, built.static_displacement, SPEED)
-    assert_agreement(case, case.stress(running, np.zeros_like(running)), expected)
+    assert_agreement(built.mesh.mesh, running, np.zeros_like(running), expected)
 
 
-def test_stress_of_a_displaced_tip(case, tmp_path):
+def test_stress_of_a_displaced_tip(built, tmp_path):
     """The interface nodes are displaced as in the first mode, which ours knows from the reduced model."""
-    built, interface = case.built, case.built.mesh.interface
+    interface = built.mesh.interface
     displacement = 1e-3 * built.mode_shape[0, interface]
     step = ["*STEP", "*STATIC", "*BOUNDARY"]
     for node, of_node in zip(interface, displacement, strict=True):
         step += [f"{node + 1}, {axis}, {axis}, {by:.12e}" for axis, by in enumerate(of_node, 1)]
-    text = case.deck(0.0) + "\n".join([*step, "*EL FILE", "S", "*END STEP", ""])
+    text = deck_of(built.mesh, 0.0) + "\n".join([*step, "*EL FILE", "S", "*END STEP", ""])
     expected = stress_of_calculix(tmp_path, text)
     recovered = np.einsum("k,kna->na", displacement.ravel(), built.recovery[: displacement.size])
-    assert_agreement(case, case.stress(np.zeros_like(recovered), recovered), expected)
+    assert_agreement(built.mesh.mesh, np.zeros_like(recovered), recovered, expected)

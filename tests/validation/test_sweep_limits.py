@@ -18,10 +18,8 @@ from bladerub.study.grid import CoatingCase, run_spec
 
 pytestmark = pytest.mark.slow
 
-ELASTIC = 1e6
-"""Elastic limit that no stress reaches, normalised."""
-DAMPED = 0.01
-"""Modal damping at which the resonance is soon at its height."""
+ELASTIC = 1e6  # limit that no stress reaches, normalised
+DAMPED = 0.01  # modal damping at which the resonance is soon at its height
 
 
 @pytest.fixture
@@ -55,7 +53,6 @@ def test_a_slow_passage_comes_to_the_amplitude_at_constant_speed(coarse_blade, s
         simulate(coarse_blade, spec_at(f, revolutions=40, damping_ratio=DAMPED)).revolution_amplitude[-1]
         for f in speeds
     ]
-    print("constant", dict(zip(speeds.round(4).tolist(), np.round(1e3 * np.array(constant), 4), strict=True)))
     assert 0 < np.argmax(constant) < speeds.size - 1
     ratios = []
     for rate in (0.16, 0.04, 0.01):
