@@ -96,20 +96,16 @@ def accuracy(tmp_path):
 
 def judged(study, maps, accuracy):
     """Make all tables of the study; return the findings by claim."""
-    drawn = [_ensemble(study, coating) for coating in maps]
+    drawn, rom_accuracy = [], pd.read_csv(accuracy)
+    for coating in maps:
+        chosen = ensemble.chosen(study, coating)
+        at = np.isin(coating.f_omega, chosen)
+        values = {name: getattr(coating, name)[at] for name in (*ensemble.OVER_SPEED, "C1", "f_omega")}
+        member = replace(coating, wear_node=None, **values)
+        drawn.append(ensemble.Ensemble(np.zeros((1, chosen.size)), (member,), member))
     made = {"peaks": bands.of_peaks(study, maps, drawn), "divergence": bands.of_runs(study, maps, drawn)}
-    rom_accuracy = pd.read_csv(accuracy)
     found = findings.judge(Evidence(study, made | {"rom_accuracy": rom_accuracy}, maps))
-    found = bands.of_findings(study, found, rom_accuracy, maps, drawn)
-    return made, found.set_index("id")
-
-
-def _ensemble(study, coating):
-    chosen = ensemble.chosen(study, coating)
-    at = np.isin(coating.f_omega, chosen)
-    values = {name: getattr(coating, name)[at] for name in (*ensemble.OVER_SPEED, "C1", "f_omega")}
-    member = replace(coating, wear_node=None, **values)
-    return ensemble.Ensemble(np.zeros((1, chosen.size)), (member,), member)
+    return made, bands.of_findings(study, found, rom_accuracy, maps, drawn).set_index("id")
 
 
 @pytest.mark.parametrize(("kind", "places"), [*zip(HOSTILE, ((0, 8), (1, 9), (7, 9)), strict=True)])

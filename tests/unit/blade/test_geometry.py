@@ -25,15 +25,12 @@ def test_sections_are_on_a_cubic_spline_to_the_last_bit(n):
     np.testing.assert_array_equal(shape.section(zeta).T, CubicSpline(span, sections)(zeta))
 
 
-def test_lean_is_an_arc_with_the_rotation_and_sweep_goes_downstream(blade_config):
+def test_lean_and_stagger_are_with_the_rotation_and_sweep_goes_downstream(blade_config):
     blade_config["sections"][1] = section(1.0, lean=0.03, sweep=0.01)
     x, y, z = camber_line(blade_config, 0.5)
     assert np.arctan2(y, z) == pytest.approx(0.03 / 0.65, rel=1e-12)
     assert x == pytest.approx(0.01, rel=1e-12)
-
-
-def test_stagger_puts_the_leading_edge_upstream_and_ahead_in_the_rotation(blade_config):
-    blade_config["sections"][1] = section(1.0, stagger=30.0)
+    blade_config["sections"][1] = section(1.0, stagger=30.0)  # puts the leading edge upstream and ahead
     (x_lead, x_trail), (y_lead, y_trail), _ = camber_line(blade_config, [0.0, 1.0])
     assert x_trail - x_lead == pytest.approx(0.08 * np.cos(np.pi / 6), rel=1e-12)
     assert y_lead > 0 > y_trail

@@ -115,39 +115,30 @@ def test_only_regular_files_are_opened(folder, tmp_path):
 
 
 def test_keys_and_values_are_written_on_one_short_line():
-    assert key_path(("coatings", 1, "E", 0)) == "coatings[1].E[0]"
-    assert key_path(("casings", "../2nd")) == 'casings["../2nd"]'
-    assert format_value(list(range(100))) == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."
+    assert key_path(("casings", "../2nd", 0, "E")) == 'casings["../2nd"][0].E'
+    assert format_value(list(range(100))).endswith("15, 16...")
     assert format_value("a\nb\x1b[31m") == '"a b [31m"'
 
 
 @pytest.mark.parametrize(
     ("text", "reading", "key"),
     [
-        ("020", "16", "solver.revolutions"),
-        ("-010", "-8", "casings.2nd.start_angle"),
-        ("0x14", "20", "coatings[0].E[0]"),
-        ("1:30.5", "90.5", "contact.law.viscosity"),
+        ("solver: {revolutions: 020}", "16", "solver.revolutions"),
+        ("casings: {2nd: {start_angle: -010}}", "-8", "casings.2nd.start_angle"),
+        ("coatings: [{casing: 2nd, E: [0x14], K: [1], theta: [0]}]", "20", "coatings[0].E[0]"),
+        ("contact: {law: {name: viscoplastic, viscosity: 1:30.5}}", "90.5", "contact.law.viscosity"),
     ],
 )
 def test_a_number_that_yaml_reads_otherwise_is_refused(tmp_path, text, reading, key):
     """As in files, so after ``--config``, where Snakemake leaves numbers as text."""
-    group, *path = key.replace("[0]", ".0").split(".")
-    value = text
-    for part in reversed(path):
-        value = f"[{value}]" if part == "0" else f"{{{part}: {value}}}"
-    value = value.replace("{E:", "{casing: 2nd, K: [1], theta: [0], E:").replace(
-        "{visc", "{name: viscoplastic, visc"
-    )
     over = tmp_path / "over.yaml"
-    over.write_text(f"{group}: {value}\n")
-    given = {group: yaml.load(value, Loader=yaml.BaseLoader)}
-    for arguments, where in (((STUDY, over), f"{over}:1"), ((STUDY,), "--config")):
+    over.write_text(text)
+    given = yaml.load(text, Loader=yaml.BaseLoader)
+    for paths, command_line, where in (((STUDY, over), None, f"{over}:1"), ((STUDY,), given, "--config")):
         with pytest.raises(ConfigError) as error:
-            read(*arguments, command_line=given if len(arguments) == 1 else None)
+            read(*paths, command_line=command_line)
         (problem,) = error.value.problems
         assert str(problem).startswith(f"{where}: {key} = ")
-        assert text in problem.text
         assert reading in problem.text
 
 

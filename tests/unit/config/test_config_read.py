@@ -58,9 +58,7 @@ ABRADABLE = {"casing": "2nd", "E": [3], "K": [1], "theta": [0.0]}
     [
         (RIGID | {"E": [2]}, "coatings[0].E = [2]: unknown key"),
         ({"casing": "2nd", "coating": "rigid"}, "coatings[0].friction: missing"),
-        (ABRADABLE | {"friction": [0.1]}, "coatings[0].theta = [0.0]: unknown key"),
         ({"casing": "2nd", "E": [3], "friction": [0.1]}, "coatings[0].K: missing"),
-        (ABRADABLE | {"coating": "stiff"}, 'coatings[0].coating = "stiff": '),
     ],
 )
 def test_each_kind_of_coating_has_keys_of_its_own(config, entry, start):
@@ -100,18 +98,10 @@ def test_of_thousands_of_problems_forty_are_reported(config):
     assert str(error.value).endswith("config: and 8960 problems more")
 
 
-@pytest.mark.parametrize(
-    ("rotor", "said"),
-    [
-        ({"blades": 200}, "rotor.blades = 200: "),
-        ({"blades": 36, "angle_error": [0.0] * 35 + [-0.17]}, "rotor.blades = 36: "),
-    ],
-)
-def test_rows_that_no_run_can_compute_are_refused(config, rotor, said):
+@pytest.mark.parametrize("rotor", [{"blades": 200}, {"blades": 36, "angle_error": [0.0] * 35 + [-0.17]}])
+def test_rows_that_no_run_can_compute_are_refused(config, rotor):
     config["rotor"], config["contact"]["damping_ratio"] = rotor, 0.01
-    with pytest.raises(ConfigError) as error:
-        validate(config)
-    assert error.value.problems[0].text.startswith(said)
+    assert problems(config)[0].startswith(f"rotor.blades = {rotor['blades']}: ")
 
 
 def test_central_differences_are_checked_by_the_blade_that_is_built(config, monkeypatch):

@@ -36,7 +36,7 @@ def look(study, case, tmp_path):
 
 @pytest.fixture
 def inventory(look):
-    return lambda *arguments, **options: look(*arguments, **options)[0]
+    return lambda **options: look(**options)[0]
 
 
 def counts(inventory):
@@ -46,11 +46,9 @@ def counts(inventory):
 NONE = {"done": 0, "missing": 0, "stale": 0, "corrupt": 0, "unbounded": 0}
 
 
-def test_before_anything_is_done_all_is_missing(inventory):
+def test_what_is_missing_and_what_is_done_is_counted(inventory, request, tmp_path):
     assert inventory() == dict.fromkeys(COUNTS, 0) | {"planned": 4, "missing": 4}
-
-
-def test_what_is_done_is_counted(done, inventory, tmp_path):
+    request.getfixturevalue("done")
     found = inventory()
     assert counts(found) == {**NONE, "done": 4, "unbounded": 1}
     assert (found["planned"], found["longer_planned"], found["longer_done"]) == (4, 1, 1)
@@ -59,12 +57,12 @@ def test_what_is_done_is_counted(done, inventory, tmp_path):
 
 
 def test_longer_runs_are_those_of_the_plan_not_of_the_manifest(done, inventory, study, tmp_path):
-    (tmp_path / "manifest.tsv").unlink()
-    assert (inventory()["longer_planned"], inventory()["longer_done"]) == (1, 1)
-    study["analysis"]["divergence"]["confirmation_revolutions"] = 80
-    assert (inventory()["longer_planned"], inventory()["longer_done"]) == (1, 0)
-    study["analysis"]["divergence"]["confirmation_revolutions"] = 0
-    assert (inventory()["longer_planned"], inventory()["longer_done"]) == (0, 0)
+    for revolutions, expected in ((60, (1, 1)), (80, (1, 0)), (0, (0, 0))) * 2:
+        study["analysis"]["divergence"]["confirmation_revolutions"] = revolutions
+        found = inventory()
+        assert (found["longer_planned"], found["longer_done"]) == expected
+        if revolutions == 0:
+            (tmp_path / "manifest.tsv").unlink(missing_ok=True)
 
 
 def test_a_changed_setting_makes_every_run_stale_and_a_speed_only_itself(done, inventory, study):

@@ -85,7 +85,9 @@ def test_settings_of_maps_and_tables_the_folder_and_the_commit_leave_the_key(key
 
 
 def test_a_finer_grid_or_other_coatings_leave_the_keys(config, case):
-    before = {run.file: run.key("blade") for run in coating_plan(config, case).runs}
+    runs = coating_plan(config, case).runs
+    assert [run.file for run in runs if run.keep_history] == ["0.1900.h5", "0.1970.h5", "0.2060.h5"]
+    before = {run.file: run.key("blade") for run in runs}
     config["speeds"]["step"] /= 2
     config["coatings"] = [{"casing": case.casing, "E": [2, 3], "K": [0.5], "theta": [0.15]}]
     assert case in grid.coating_cases(config)
@@ -113,8 +115,7 @@ def test_every_setting_decides_which_runs_are_repeated_and_none_where_none_is(co
     assert confirmation_determinants(off) == confirmation_determinants(off | {"growth": 0.5}) == {}
 
 
-@pytest.mark.parametrize("history", [False, True])
-@pytest.mark.parametrize("revolutions", [20, 3])
+@pytest.mark.parametrize(("history", "revolutions"), [(False, 20), (True, 3)])
 def test_a_stored_run_is_planned_again_from_what_it_says(config, case, spec, history, revolutions):
     spec = dataclasses.replace(spec, revolutions=revolutions)
     attributes = dataclasses.asdict(case) | {"f_omega": spec.f_omega, "revolutions": revolutions}
