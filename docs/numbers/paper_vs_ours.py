@@ -36,21 +36,18 @@ def numbers(tables):
                 row(margins, variation="window from the crossing", id="C9b")["measured"], 3
             ),
         }
-        | _peaks(tables["peaks"], tables["chart_stiffening"], tables["chart_explanation"])
+        | _peaks(tables["peaks"])
         | _longer_peaks(tables["peaks"], tables["longer_peaks"])
         | _divergence(tables["divergence"], tables["longer_divergence"])
-        | _certainty(tables["rigid_convergence"], tables["accuracy"])
+        | {"rigid_error": _rigid_error(tables["rigid_convergence"])}
     )
 
 
-def _peaks(peaks, stiffening, explanation):
+def _peaks(peaks):
     straight = rows(peaks, casing="2nd", theta=0, order=4)
     ridge = rows(straight, K=0.5, E=_RIDGE)["amplitude"]
     rigid = rows(peaks, law="coulomb").set_index("order")
     hard_f6 = rows(peaks, casing="2nd", K=10, theta=0, order=6, E=_RIDGE)["f_peak"]
-    curve = row(stiffening, theta=0, order=4)
-    f4 = rows(explanation, order=4, theta=0)
-    highest, lower = (f4[f4["E_T"].between(*bounds)]["f_peak"].median() for bounds in ((3, 4.3), (4.3, 7)))
     f6 = peak(peaks, 2, 0.5, 6)["f_peak"]
     return {
         "ridge_width": percent(1 - ridge.min() / ridge.max()),
@@ -62,12 +59,6 @@ def _peaks(peaks, stiffening, explanation):
             .rename(columns="{:g}".format)
             .reset_index()
         ),
-        "chart_coatings": fixed(curve["coatings"]),
-        "rank_E_T": fixed(curve["rank_correlation_E_T"], 2),
-        "rank_K": fixed(curve["rank_correlation_K"], 2),
-        "f4_highest": fixed(highest, 3),
-        "f4_beyond": fixed(lower, 3),
-        "f4_rigid": fixed(rigid.loc[4, "f_peak"], 3),
         "f6_hard_low": fixed(hard_f6.min(), 3),
         "f6_hard_high": fixed(hard_f6.max(), 3),
         "f6_rigid": fixed(rigid.loc[6, "f_peak"], 3),
@@ -152,12 +143,6 @@ def _shares(divergence, modulus):
     return table(shares)
 
 
-def _certainty(rigid, accuracy):
-    drawn = rows(accuracy, drawn_from="all")
-    accurate = drawn[(drawn["error_wear_l2"] <= 0.01) & (drawn["error_peak"] <= 0.01)]
-    return {
-        "rigid_error": percent(rows(rigid, complete=True)["amplitude_change"].abs().max(), 1),
-        "drawn": fixed(len(drawn)),
-        "accurate": fixed(len(accurate)),
-        "chaotic": fixed(rows(drawn, sensitive=True).shape[0]),
-    }
+def _rigid_error(rigid):
+    """Write how far the amplitudes on the rigid casing are known, in per cent."""
+    return percent(rows(rigid, complete=True)["amplitude_change"].abs().max(), 1)
