@@ -25,6 +25,8 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
                 (`bladerub.config.checks.reads`)
 ``FORECASTS``   what says how much a plan of Snakemake computes, and how long: modules with `announce` and
                 `announce_at_exit`
+``REMEDIES``    what cures Snakemake: modules with `begin`, called when an invocation is planned, and
+                `start`, called at its start with Snakemake's ``workflow`` and the folders of its results
 ``NEEDS``       names of other folders, without which a folder adds nothing
 =============== ===================================================================================
 """

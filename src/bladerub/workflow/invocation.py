@@ -1,19 +1,14 @@
 """What an invocation of the workflow plans again and clears away of those killed before it."""
 
-import math
-import os
 import re
-import signal
 import sys
 import tempfile
-import threading
-import time
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from bladerub import plugins
 from bladerub.config import record
 from bladerub.config.record import Record
 from bladerub.io import atomic, checksum
@@ -21,30 +16,6 @@ from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
 from bladerub.io.folders import CONFIG, provide_for_unknown_user
 from bladerub.io.garbage import collect_seldom
 from bladerub.study.manifest import ManifestRow, Row, listed_files
-from bladerub.workflow import claims
-
-
-def _take_two_interrupts_for_one() -> None:
-    """Ignore a second Ctrl-C that comes while Snakemake ends after the first, for a few seconds.
-
-    It would break off what ends the jobs, in a traceback of Snakemake's event loop.
-    """
-    last = -math.inf
-
-    def interrupt(number: int, frame: Any) -> None:
-        nonlocal last
-        previous, last = last, time.monotonic()
-        if last - previous > _SECOND_INTERRUPT:
-            signal.default_int_handler(number, frame)
-
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, interrupt)
-
-
-_SECOND_INTERRUPT = 5.0  # s
-
-START_OF_JOBS = Path(__file__).with_name("start_of_jobs")
-"""What Python executes at the start of all jobs: a folder for their ``PYTHONPATH``."""
 
 
 def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
@@ -123,7 +94,8 @@ def plan(
     """
     collect_seldom()
     provide_for_unknown_user()
-    _take_two_interrupts_for_one()
+    for remedy in plugins.loaded("REMEDIES").values():
+        remedy.begin()
     _planned[:] = [(results, laid_over, begin)]
     if made_with := _made_with(results, laid_over):
         notes = [f"{results} was made with {made_with.as_arguments()}; this is the study without it", *notes]
@@ -132,7 +104,7 @@ def plan(
 
 
 def start(workflow: Any) -> None:
-    """Begin to compute what was planned: claim its files, `prepare` its results folder, record its config.
+    """Begin to compute what was planned: `prepare` its results folder, record its config.
 
     Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
     calls it from its own, since Snakemake ignores that of a module. Raises `BadInput` for targets beside the
@@ -151,65 +123,13 @@ def start(workflow: Any) -> None:
             f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the "
             "environment in a folder without spaces and special characters (that of the study may have them)"
         )
-    persistence = workflow.persistence
-    if claims.claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):
-        _print("the last snakemake here was killed; what it had finished is kept")
-    _handle_termination_beside()
-    _schedule_by_events(workflow)
-    os.environ["PYTHONPATH"] = os.pathsep.join(
-        filter(None, [str(START_OF_JOBS), os.environ.get("PYTHONPATH")])
-    )
+    for remedy in plugins.loaded("REMEDIES").values():
+        remedy.start(workflow, [results for results, *_ in _planned])
     for results, laid_over, begin in _planned:
         prepare(results)
-        date_back(results)
         record.write(results, laid_over.files, laid_over.command_line)
         if workflow.local_exec:  # a job on another machine shares nothing with this process
             begin()
-
-
-def date_back(results: str | Path) -> None:
-    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure.
-
-    What another invocation takes away meanwhile, or the system refuses, is left as it is.
-    """
-    now, n_future = time.time(), 0
-    for folder, _, names in os.walk(results):
-        for path in (os.path.join(folder, name) for name in names):
-            with suppress(OSError):
-                if os.lstat(path).st_mtime > now + 1:
-                    os.utime(path, (now, now), follow_symlinks=False)
-                    n_future += 1
-    if n_future:
-        _print(f"files of the future, by a clock that was ahead: {n_future}; they are of now")
-
-
-def _handle_termination_beside() -> None:
-    """Let a thread of its own execute Snakemake's handler of SIGTERM.
-
-    The handler waits for the lock of the scheduler (``JobScheduler.exit_gracefully`` of Snakemake 9.27).
-    Python executes handlers in the main thread, which would wait for itself where it holds that lock.
-    """
-    handler = signal.getsignal(signal.SIGTERM)
-    if callable(handler):
-        signal.signal(
-            signal.SIGTERM, lambda *arguments: threading.Thread(target=handler, args=arguments).start()
-        )
-
-
-def _schedule_by_events(workflow: Any) -> None:
-    """Let Snakemake look for jobs when one ends, and not all the time.
-
-    Its limit of 100 jobs a second (Snakemake 9.27, where none is given) sets a timer of a second in each
-    round of the scheduler, and the timer begins another round. So each job that ends adds a round a second,
-    up to the end of the study.
-    """
-    scheduler = workflow.scheduler
-    limiter = scheduler.job_rate_limiter
-    if workflow.local_exec and limiter and (limiter.max_jobs, limiter.timespan) == _DEFAULT_JOB_RATE:
-        scheduler.job_rate_limiter = None
-
-
-_DEFAULT_JOB_RATE = (100, 1)
 
 
 def stopped() -> None:

@@ -2,7 +2,7 @@
 
 A script handles errors from its first line on (`bladerub.workflow.job`). Before it Python starts and imports
 Snakemake, for half a second. Python executes this module then (`site`), since its folder is in the
-``PYTHONPATH`` of all jobs (`bladerub.workflow.invocation.start`). It imports nothing that takes time, since
+``PYTHONPATH`` of all jobs (`bladerub.extras.remedies.snakemake`). It imports nothing that takes time, since
 Python does not start at all if it is interrupted here.
 """
 

@@ -1,0 +1,1 @@
+"""Remedies for what Snakemake does when it is interrupted, terminated or started twice."""

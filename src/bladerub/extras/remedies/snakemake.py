@@ -1,0 +1,104 @@
+"""Remedies for Snakemake 9.27, at the plan and at the start of an invocation."""
+
+import math
+import os
+import signal
+import sys
+import threading
+import time
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from bladerub.extras.remedies import claims
+
+_SECOND_INTERRUPT = 5.0  # s
+
+START_OF_JOBS = Path(__file__).with_name("start_of_jobs")
+"""What Python executes at the start of all jobs: a folder for their ``PYTHONPATH``."""
+
+_DEFAULT_JOB_RATE = (100, 1)  # jobs, seconds
+
+
+def begin() -> None:
+    """Be ready for Ctrl-C, once an invocation is planned."""
+    _take_two_interrupts_for_one()
+
+
+def start(workflow: Any, results: Iterable[str]) -> None:
+    """Claim the files of Snakemake's `workflow`, and be ready for what ends it.
+
+    Files of the future in the folders `results` become of now. Raises as `bladerub.extras.remedies.claims`.
+    """
+    persistence = workflow.persistence
+    if claims.claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):
+        print("bladerub: the last snakemake here was killed; what it had finished is kept", file=sys.stderr)
+    _handle_termination_beside()
+    _schedule_by_events(workflow)
+    paths = [str(START_OF_JOBS), os.environ.get("PYTHONPATH")]
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
+    for folder in results:
+        date_back(folder)
+
+
+def _take_two_interrupts_for_one() -> None:
+    """Ignore a second Ctrl-C that comes while Snakemake ends after the first, for a few seconds.
+
+    It would break off what ends the jobs, in a traceback of Snakemake's event loop.
+    """
+    last = -math.inf
+
+    def interrupt(number: int, frame: Any) -> None:
+        nonlocal last
+        previous, last = last, time.monotonic()
+        if last - previous > _SECOND_INTERRUPT:
+            signal.default_int_handler(number, frame)
+
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
+
+
+def date_back(results: str | Path) -> None:
+    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure.
+
+    What another invocation takes away meanwhile, or the system refuses, is left as it is.
+    """
+    now, n_future = time.time(), 0
+    for folder, _, names in os.walk(results):
+        for path in (os.path.join(folder, name) for name in names):
+            with suppress(OSError):
+                if os.lstat(path).st_mtime > now + 1:
+                    os.utime(path, (now, now), follow_symlinks=False)
+                    n_future += 1
+    if n_future:
+        print(
+            f"bladerub: files of the future, by a clock that was ahead: {n_future}; they are of now",
+            file=sys.stderr,
+        )
+
+
+def _handle_termination_beside() -> None:
+    """Let a thread of its own execute Snakemake's handler of SIGTERM.
+
+    The handler waits for the lock of the scheduler (``JobScheduler.exit_gracefully`` of Snakemake 9.27).
+    Python executes handlers in the main thread, which would wait for itself where it holds that lock.
+    """
+    handler = signal.getsignal(signal.SIGTERM)
+    if callable(handler):
+        signal.signal(
+            signal.SIGTERM, lambda *arguments: threading.Thread(target=handler, args=arguments).start()
+        )
+
+
+def _schedule_by_events(workflow: Any) -> None:
+    """Let Snakemake look for jobs when one ends, and not all the time.
+
+    Its limit of 100 jobs a second (Snakemake 9.27, where none is given) sets a timer of a second in each
+    round of the scheduler, and the timer begins another round. So each job that ends adds a round a second,
+    up to the end of the study.
+    """
+    scheduler = workflow.scheduler
+    limiter = scheduler.job_rate_limiter
+    if workflow.local_exec and limiter and (limiter.max_jobs, limiter.timespan) == _DEFAULT_JOB_RATE:
+        scheduler.job_rate_limiter = None
