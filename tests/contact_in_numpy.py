@@ -1,8 +1,6 @@
 """The contact model with all its variants in plain NumPy, which the time loop is tested against.
 
-Beside the paper's scheme (`bladerub.contact.reference`): the exponential scheme, rows of blades, other laws
-of the coating, heat, and a tip that turns. The law of an element, the profile of the tip and the shape of the
-casing are those of the package; all else is written out here.
+Law of an element, profile of the tip and shape of the casing are those of the package; all else is here.
 """
 
 import itertools
@@ -26,26 +24,7 @@ from bladerub.extras.rows.spec import Row
 def simulate(
     blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Simulate a run by the scheme that `spec` names.
-
-    Parameters
-    ----------
-    blade : ReducedBlade
-        The blade.
-    spec : RunSpec
-        The run; it starts at rest. Coulomb friction and the rigid casing are left to the time loop.
-    n_steps : int
-        Time steps.
-    n_modes : int, optional
-        Modes that the exponential scheme resolves, all by default.
-
-    Returns
-    -------
-    history : (n_steps, 2 j) ndarray
-        Radial, then tangential displacement of the j interface nodes after each step, m.
-    wear : (j, N) ndarray
-        Permanent shortening of the elements, m.
-    """
+    """Simulate from rest; return displacements of the nodes (n_steps, 2 j) and wear (j, N), m."""
     coating = _Coating(blade, spec)
     steps = _steps(blade, spec, n_modes, coating)
     history = np.array([next(steps) for _ in range(n_steps)])
@@ -61,18 +40,7 @@ def element_means(displacement: np.ndarray, n_elements: int) -> np.ndarray:
 def simulate_row(
     blade: ReducedBlade, spec: RunSpec, row: Row, n_steps: int, n_modes: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Simulate blades that pass over one coating, all of them step by step.
-
-    Parameters are those of `simulate`, and the blades of the row; none is held at the start. A disk that
-    couples them acts in each step, on rows that the exponential scheme integrates.
-
-    Returns
-    -------
-    histories : (n_blades, n_steps, 2 j) ndarray
-        Displacements of each blade, as of `simulate`.
-    wear : (j, N) ndarray
-        Permanent shortening of the elements by all of them, m.
-    """
+    """Simulate a row step by step; return displacements (n_blades, n_steps, 2 j) and wear (j, N), m."""
     coatings = [_Coating(blade, spec) for _ in row.blades]
     squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
     marches = []
@@ -290,11 +258,7 @@ class _Heat:
 
 
 def tip_rows(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Rows (2 j, n) that take radial and tangential displacements of the tip from the reduced coordinates.
-
-    Where the profile turns, j more give its tilt in m per element: the slope of the blade's tip plus the
-    angle by which the node moves along the curved casing.
-    """
+    """Rows (2 j, n), or (3 j, n) with the tilt, from the reduced coordinates to the motion of the tip, m."""
     n = blade.n_interface
     rows = np.zeros((2 * n, len(blade.mass)))
     for j in range(n):

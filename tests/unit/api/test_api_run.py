@@ -1,7 +1,6 @@
 import numpy as np
 import pandas as pd
 import pytest
-import xarray as xr
 
 import bladerub as br
 from bladerub.study.job import compute_missing
@@ -12,18 +11,6 @@ def test_speed_beyond_the_blade_is_named(study, blade):
     with pytest.raises(br.InputError) as caught:
         br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.45))
     assert caught.value.name == "f_omega"
-
-
-def test_written_run_is_read_with_the_same_arrays(study, run, tmp_path):
-    run.write(tmp_path / "0.1900.h5", study.config)
-    read = br.read_run(tmp_path / "0.1900.h5")
-    assert read.stored.data.keys() == run.stored.data.keys()
-    xr.testing.assert_equal(read.to_xarray(), run.to_xarray())
-    assert run.attributes.items() <= read.attributes.items()
-    for name, data in run.stored.data.items():
-        np.testing.assert_array_equal(read.stored.data[name], data)
-    assert read.energy == run.energy
-    assert read.case == run.case
 
 
 def test_progress_and_each_count_the_revolutions(study, blade, capsys):

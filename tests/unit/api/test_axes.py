@@ -40,30 +40,22 @@ def test_wear_is_drawn_around_polar_axes_and_along_others(run, stiffer, axes):
     plt.close(polar.figure)
 
 
-def test_a_history_has_displacement_and_amplitude(run, axes):
-    assert run.plot_history(ax=axes) is axes
-    displacement, amplitude = axes.lines
+def test_histories_maps_and_the_blade_are_drawn_into_the_axes(run, sweep, blade):
+    history, wear, spectra, campbell, mesh = (Figure().add_subplot() for _ in range(5))
+    assert run.plot_history(ax=history) is history
+    displacement, amplitude = history.lines
     np.testing.assert_array_equal(displacement.get_ydata(), 1e3 * run.radial_displacement)
     np.testing.assert_array_equal(amplitude.get_ydata(), 1e3 * run.revolution_amplitude)
-
-
-def test_maps_are_drawn_into_the_axes(sweep, axes):
-    assert sweep.plot_wear(ax=axes) is axes
-    np.testing.assert_array_equal(axes.collections[0].get_array(), 1e3 * sweep.wear.T)
-    of_spectra = Figure().add_subplot()
-    assert sweep.plot_spectrum(ax=of_spectra) is of_spectra
-    np.testing.assert_array_equal(
-        of_spectra.collections[0].get_array(), 1e3 * sweep.coating.spectrum_amplitude
-    )
-
-
-def test_the_blade_is_drawn_into_the_axes(blade, axes):
-    assert blade.plot_campbell(ax=axes) is axes
+    assert sweep.plot_wear(ax=wear) is wear
+    np.testing.assert_array_equal(wear.collections[0].get_array(), 1e3 * sweep.wear.T)
+    assert sweep.plot_spectrum(ax=spectra) is spectra
+    expected = 1e3 * sweep.coating.spectrum_amplitude
+    np.testing.assert_array_equal(spectra.collections[0].get_array(), expected)
+    assert blade.plot_campbell(ax=campbell) is campbell
     first = blade.accuracy().query("mode == 1").f_rom / blade.f1_hz
-    assert any(np.array_equal(line.get_ydata(), first) for line in axes.lines)
-    of_mesh = Figure().add_subplot()
-    assert blade.plot_mesh(ax=of_mesh) is of_mesh
-    assert len(of_mesh.collections[0].get_paths()) > 50
+    assert any(np.array_equal(line.get_ydata(), first) for line in campbell.lines)
+    assert blade.plot_mesh(ax=mesh) is mesh
+    assert len(mesh.collections[0].get_paths()) > 50
 
 
 def test_lists_give_lists_over_their_combinations(study, blade):

@@ -33,17 +33,6 @@ def blade_file(small, folder, capsys):
     return path
 
 
-def told(capsys, arguments):
-    """Run a bad command: exit code and the one line on standard error."""
-    try:
-        code = main(arguments)
-    except SystemExit as error:  # argparse ends the program itself
-        code = error.code
-    output = capsys.readouterr()
-    assert output.out == ""
-    return code, output.err
-
-
 def test_run_builds_the_blade_if_there_is_none(small, folder, capsys):
     assert not (folder / "results").exists()
     assert main([*RUN, *small, "--json"]) == 0
@@ -54,13 +43,13 @@ def test_run_builds_the_blade_if_there_is_none(small, folder, capsys):
     assert (folder / "results" / "blade" / "rom_accuracy.csv").is_file()
 
 
-def test_a_run_may_be_replaced_but_nothing_else(small, blade_file, folder, capsys):
+def test_a_run_may_be_replaced_but_nothing_else(small, blade_file, folder, capsys, command):
     path = folder / "again.h5"
     for _ in range(2):
         assert main([*RUN, *small, "--output", str(path)]) == 0
     capsys.readouterr()
     before = blade_file.read_bytes()
-    code, line = told(capsys, [*RUN, *small, "--output", str(blade_file)])
+    code, _, line = command(*RUN, *small, "--output", str(blade_file))
     assert code == 2
     assert line.startswith(f"bladerub run: --output {blade_file}: is there and is no run, ")
     assert blade_file.read_bytes() == before
@@ -89,29 +78,27 @@ def test_the_stress_of_a_run_is_that_of_its_motion(small, blade_file, folder, ca
 
 
 def test_a_speed_in_revolutions_a_minute_is_the_same_run(small, blade_file, capsys):
-    by_speed = {}
-    main([*RUN, *small, "--json"])
-    by_speed["f"] = json.loads(capsys.readouterr().out)
-    rpm = 60 * 0.19 * read_reduced_blade(blade_file).f1_hz
-    assert by_speed["f"]["rpm"] == pytest.approx(rpm)
-    main([*RUN[:-2], "--rpm", repr(rpm), *small, "--json"])
-    by_speed["rpm"] = json.loads(capsys.readouterr().out)
-    assert by_speed["rpm"]["f_omega"] == pytest.approx(0.19, rel=1e-12)
-    assert by_speed["rpm"]["max_wear"] == pytest.approx(by_speed["f"]["max_wear"], rel=1e-6)
+    def figures(*words):
+        assert main([*words, *small, "--json"]) == 0
+        return json.loads(capsys.readouterr().out)
+
+    by_f, rpm = figures(*RUN), 60 * 0.19 * read_reduced_blade(blade_file).f1_hz
+    by_rpm = figures(*RUN[:-2], "--rpm", repr(rpm))
+    assert by_f["rpm"] == pytest.approx(rpm)
+    assert by_rpm["f_omega"] == pytest.approx(0.19, rel=1e-12)
+    assert by_rpm["max_wear"] == pytest.approx(by_f["max_wear"], rel=1e-6)
     in_units = {"--f": f"{rpm:.4f}rpm", "--E": "1.2 GPa", "--K": "300MPa"}
     typed = [in_units.get(option, value) for option, value in zip(["", *RUN], RUN, strict=False)]
-    main([*typed, *small, "--json"])
-    assert json.loads(capsys.readouterr().out)["run_key"] == by_speed["f"]["run_key"]
+    assert figures(*typed)["run_key"] == by_f["run_key"]
 
 
 def test_an_ensemble_shows_its_bands(small, blade_file, capsys, monkeypatch):
     further = []
-
-    def counted(blade, runs, *more):
-        further.extend(runs)
-        return solve_all(blade, runs, *more)
-
-    monkeypatch.setattr(interface, "solve_all", counted)
+    monkeypatch.setattr(
+        interface,
+        "solve_all",
+        lambda blade, runs, *more: further.extend(runs) or solve_all(blade, runs, *more),
+    )
     assert main([*RUN, *small, "--revolutions", "2", "--ensemble", "2", "--json"]) == 0
     figures = json.loads(capsys.readouterr().out)
     bands = figures["ensemble"]
@@ -130,9 +117,8 @@ def test_a_row_shows_its_blades(small, blade_file, folder, capsys):
         return json.loads(capsys.readouterr().out)
 
     found = shown("--output", str(output))
-    blades = {
-        name: [of[name] for of in found["blades"]] for name in ("blade", "length", "frequency", "amplitude")
-    }
+    names = ("blade", "length", "frequency", "amplitude")
+    blades = {name: [of[name] for of in found["blades"]] for name in names}
     assert blades["blade"] == [1, 2, 3]
     assert len(set(blades["length"])) == len(set(blades["frequency"])) == 3
     assert found["blade"] == 1 + blades["amplitude"].index(max(blades["amplitude"]))
@@ -166,33 +152,33 @@ def test_run_with_another_law_says_so(small, blade_file, folder, capsys):
         ([*RUN, "--law-parameter", "viscosity"], "--law-parameter = viscosity: must be NAME=VALUE"),
     ],
 )
-def test_bad_input_is_answered_in_one_line(small, blade_file, arguments, words, capsys):
-    code, line = told(capsys, [*arguments, *small[:2]])
-    assert code == 2
+def test_bad_input_is_answered_in_one_line(small, blade_file, arguments, words, command):
+    code, out, line = command(*arguments, *small[:2])
+    assert (code, out) == (2, "")
     assert words in line
     assert line.count("\n") == 1
 
 
-def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, capsys):
+def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, command):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("bladerub.contact.run.simulate", interrupted)
-    assert told(capsys, [*RUN, *small]) == (130, "bladerub run: interrupted\n")
+    assert command(*RUN, *small) == (130, "", "bladerub run: interrupted\n")
 
 
 def test_a_blade_that_is_damaged_or_of_another_config_is_named_and_made_anew_when_deleted(
-    small, blade_file, folder, capsys
+    small, blade_file, folder, command
 ):
     config = folder / "longer.yaml"
     config.write_text("blade: {length: 0.4}\n")
-    code, line = told(capsys, [*RUN, *small, "--config", str(config)])
+    code, _, line = command(*RUN, *small, "--config", str(config))
     assert code == 2
     assert line.startswith(f"bladerub run: {blade_file}: was built from another config; ")
     path = blade_file.with_name("mesh.h5")
     whole = path.read_bytes()
     path.write_bytes(whole[: len(whole) // 2])
-    code, line = told(capsys, [*RUN, *small])
+    code, _, line = command(*RUN, *small)
     assert code == 2
     assert line.startswith(f"bladerub run: {path}: not a readable HDF5 file")
     assert line.count("\n") == 1

@@ -1,11 +1,8 @@
 import json
-from pathlib import Path
 
 import pytest
 
 pytestmark = pytest.mark.slow
-
-PEAKS = Path(__file__).parents[3] / "docs" / "data" / "peaks.csv"
 
 SMALL = """
 blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
@@ -33,23 +30,13 @@ def test_json_holds_every_figure(benchmark):
     for loop, rates in told["steps_per_second"].items():
         assert rates["free"] > rates["contact"] > 0, loop
     assert told["ratio_to_numpy"] > told["ratio_to_numba"] > 1
-    assert 0 < told["fraction_of_peak_contact"] < 1
-    assert 0 < told["fraction_of_peak_free"] < 1
+    assert all(0 < told[f"fraction_of_peak_{part}"] < 1 for part in ("contact", "free"))
     assert (told["runs"], told["cores"]) == (6, 2)
     assert told["study_minutes"] * 2 * 60 > 6 * told["seconds_per_run"] > 0
-    assert told["vector_bits"] in {64, 128, 256, 512}
-    assert told["processor"]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--nodes", "16", "33"], "--nodes 33: must be from 4 to 32"),
-        (["--table", str(PEAKS)], "peaks.csv: not the right table, processor"),
-    ],
-)
-def test_bad_input_is_answered_in_one_line(benchmark, arguments, message):
-    code, _, error = benchmark(*arguments)
+def test_bad_input_is_answered_in_one_line(benchmark):
+    code, _, error = benchmark("--nodes", "16", "33")
     assert code == 2
-    assert message in error
+    assert "--nodes 33: must be from 4 to 32" in error
     assert error.count("\n") == 1

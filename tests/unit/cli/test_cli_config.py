@@ -38,19 +38,11 @@ def test_a_valid_config_is_summed_up_and_its_law_named_but_not_executed(study, c
     assert "E = 1 and K = 1: 600 MPa" in output
 
 
-@pytest.mark.parametrize(
-    ("text", "line", "word"),
-    [
-        ("a: 1\n__use_yte__: true\nb: ?open('executed', 'w')\n", 2, "__use_yte__"),
-        ("a: !!python/object/apply:os.system [touch executed]\n", 1, "tag"),
-    ],
-)
-def test_what_is_no_config_is_one_line_with_file_and_line(study, capsys, text, line, word):
-    (study / "theirs.yaml").write_text(text)
+def test_what_is_no_config_is_one_line_with_file_and_line_and_executes_nothing(study, capsys):
+    (study / "theirs.yaml").write_text("a: 1\nb: !!python/object/apply:os.system [touch executed]\n")
     assert main(["config", "theirs.yaml"]) == 2
     error = capsys.readouterr().err
-    assert error.startswith(f"theirs.yaml:{line}: " if line else "theirs.yaml: ")
-    assert word in error
+    assert error.startswith("theirs.yaml:2: ")
     assert error.count("\n") == 1
 
 

@@ -77,12 +77,9 @@ def test_a_loading_cycle_is_by_the_law_of_the_coating_at_a_rate():
     assert steady * 1e8 == pytest.approx(1e4 * 1000 * (2 / 2.5) ** 2 * rise, rel=0.02)
 
 
-@pytest.fixture
-def scene():
-    return pressed_elements(COATING, TipProfile(half_width=3.0, edge_drop=1e-4), 0.65, depth=1.5e-4, reach=6)
-
-
-def test_elements_behind_the_tip_are_worn_and_those_ahead_are_not(scene):
+def test_elements_behind_the_tip_are_worn_and_those_ahead_are_not():
+    profile = TipProfile(half_width=3.0, edge_drop=1e-4)
+    scene = pressed_elements(COATING, profile, 0.65, depth=1.5e-4, reach=6)
     assert scene.element.tolist() == list(range(-6, 7))
     assert scene.width == pytest.approx(2 * np.pi * 0.65 / 2000)
     behind, ahead = scene.element < -3, scene.element > 3
@@ -95,17 +92,14 @@ def test_elements_behind_the_tip_are_worn_and_those_ahead_are_not(scene):
 TIP = TipProfile(half_width=2.0, edge_drop=20e-6)
 
 
-def test_profile_is_a_parabola_with_the_given_edge():
-    np.testing.assert_allclose(relief(TIP, np.array([0.0, 1.0, 2.0, -2.0])), [0, 5e-6, 20e-6, 20e-6])
-
-
 @pytest.mark.parametrize("position", [0.0, 0.2, 0.5, 0.77])
 def test_elements_under_the_tip_add_up_to_its_width_wherever_it_stands(position):
     offset = np.arange(-6, 7) + 0.5 - position
     assert coverage(TIP, offset).sum() == pytest.approx(2 * TIP.half_width)
 
 
-def test_coverage_fades_over_the_width_of_one_element():
+def test_profile_is_a_parabola_and_coverage_fades_over_the_width_of_one_element():
+    np.testing.assert_allclose(relief(TIP, np.array([0.0, 1.0, 2.0, -2.0])), [0, 5e-6, 20e-6, 20e-6])
     np.testing.assert_allclose(coverage(TIP, np.array([1.5, 2.0, 2.25, 2.5, 3.0])), [1, 0.5, 0.25, 0, 0])
 
 

@@ -96,7 +96,6 @@ def test_only_the_rigid_casing_is_met_implicitly_by_central_differences(blade):
 
 def test_step_too_long_is_refused(blade):
     modes = modes_at(blade, 0.3)
-    with pytest.raises(ValueError, match=r"time step .* less than .* for the highest mode"):
-        central_differences(modes, XI, 2e-5, SOFT)
-    with pytest.raises(ValueError, match=r"time step .* too long"):
-        exponential(modes, XI, 1.0, SOFT)
+    for scheme, h in ((central_differences, 2e-5), (exponential, 1.0)):
+        with pytest.raises(ValueError, match="time step"):
+            scheme(modes, XI, h, SOFT)

@@ -25,25 +25,35 @@ def test_totals_of_sixteen_vectors():
     np.testing.assert_allclose(out, (a @ a.sum(axis=0)), rtol=1e-12)
 
 
+ONE = """
+import sys
+from bladerub.contact import variants
+from bladerub.contact.laws import described_law, source_of
+from bladerub.contact.setup import compile_kernel
+from bladerub.numerics.lanes import lanes_for
+values = {"viscosity": 1e4} if sys.argv[2] == "viscoplastic" else {}
+n_nodes, law = int(sys.argv[1]), described_law(sys.argv[2], values)
+compile_kernel(n_nodes=n_nodes, law=law)
+loop = variants.module_for(lanes_for(n_nodes), "contact.kernel.loop", source_of(law))
+print(sum(loop.integrate.stats.cache_misses.values()))
+"""
+
+
+def misses(program, *arguments, **environment):
+    """Number of functions that a process of its own compiles."""
+    command = [sys.executable, "-c", program, *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, env=os.environ | environment, check=True)
+    return int(done.stdout)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("n_nodes", "law"), [pytest.param(12, "plastic", marks=pytest.mark.nightly), (8, "viscoplastic")]
 )
 def test_machine_code_of_another_process_is_used(n_nodes, law):
     """Each job of a study is a process of its own, and compiling takes longer than most of them."""
-    program = (
-        "from bladerub.contact.laws import described_law, source_of\n"
-        "from bladerub.contact.setup import compile_kernel\n"
-        "from bladerub.contact import variants\n"
-        "from bladerub.numerics.lanes import lanes_for\n"
-        f"law = described_law({law!r}, {{'viscosity': 1e4}} if {law!r} == 'viscoplastic' else {{}})\n"
-        f"compile_kernel(n_nodes={n_nodes}, law=law)\n"
-        f"loop = variants.module_for(lanes_for({n_nodes}), 'contact.kernel.loop', source_of(law))\n"
-        "print(sum(loop.integrate.stats.cache_misses.values()))"
-    )
-    command = [sys.executable, "-c", program]
-    subprocess.run(command, capture_output=True, check=True)
-    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "0\n"
+    misses(ONE, n_nodes, law)
+    assert misses(ONE, n_nodes, law) == 0
 
 
 ROWS = """
@@ -68,16 +78,10 @@ print(sum(kernel._integrate_row.stats.cache_misses.values()))
 @pytest.mark.nightly
 def test_rows_by_two_laws_leave_machine_code_that_later_processes_use(tmp_path):
     """A later process has but one of the laws; where the code on disk is damaged, it is made anew."""
-    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
-
-    def misses(first):
-        command = [sys.executable, "-c", ROWS, str(first)]
-        done = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
-        return int(done.stdout)
-
-    misses(0)
-    assert misses(1) == 0
+    folder = {"NUMBA_CACHE_DIR": str(tmp_path)}
+    misses(ROWS, 0, **folder)
+    assert misses(ROWS, 1, **folder) == 0
     for index in tmp_path.rglob("kernel._integrate_row*.nbi"):
         index.write_bytes(index.read_bytes()[:-100])
-    assert misses(1) == 1
-    assert misses(1) == 0
+    assert misses(ROWS, 1, **folder) == 1
+    assert misses(ROWS, 1, **folder) == 0

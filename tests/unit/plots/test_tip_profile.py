@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import boundary_faces, normals
 from bladerub.contact.illustration import LoadingCycle, PressedElements
 from bladerub.contact.spec import Coating
@@ -62,20 +63,10 @@ def test_slopes_and_the_remaining_strain_are_marked_where_they_are(draws):
         assert mark.get_xdata() == pytest.approx([(E * 0.03 - yield_stress) / (E + K)])
 
 
-CORNERS = np.array(
-    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float
-)
-
-
-EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
-
-
 def tower(n: int) -> tuple[np.ndarray, np.ndarray]:
     """Stack n unit cubes of 20 nodes: points and connectivity."""
-    cube = np.vstack([CORNERS, [(CORNERS[a] + CORNERS[b]) / 2 for a, b in EDGES]])
-    every = np.vstack([cube + np.array([0, 0, level]) for level in range(n)])
-    points, index = np.unique(every, axis=0, return_inverse=True)
-    return points, index.reshape(n, 20)
+    mesh, _ = hexahedral_mesh([0, 1], [0, 1], np.arange(n + 1.0), lambda *cube: np.stack(cube))
+    return mesh.points, mesh.cells
 
 
 def test_outer_faces_alone_are_found_whose_normals_point_outward():

@@ -54,8 +54,9 @@ def test_one_random_bit_is_found_wherever_it_is(results, name):
     path, draw = results / name, random.Random(name)
     whole = path.read_bytes()
     assert examine(results) == ([], [], [])
-    for _ in range(15):
-        content, bit = bytearray(whole), draw.randrange(8 * len(whole))
+    signs = [8 * whole.find(sign) for sign in (b"file checksum", b"sha256=") if sign in whole]
+    for bit in [draw.randrange(8 * len(whole)) for _ in range(15)] + signs:
+        content = bytearray(whole)
         content[bit // 8] ^= 1 << bit % 8
         path.write_bytes(content)
         assert results / name.removesuffix("-metadata.json") in examine(results).damaged, bit
