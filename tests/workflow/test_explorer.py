@@ -1,6 +1,7 @@
-"""The explorer of the tiny study in a real browser; skipped where there is none."""
+"""Explorer and report of the tiny study in a real browser; skipped where there is none."""
 
 import shutil
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -199,3 +200,20 @@ def test_a_link_restores_the_view(explorer):
     explorer.open(link)
     assert explorer.link == link
     assert explorer.driver.execute_script(state) == seen
+
+
+@pytest.mark.parametrize("width", [1400, 420])
+def test_the_report_fits_a_screen_and_a_phone(study, driver, tmp_path, width):
+    page = tmp_path / "report.html"
+    done = study.call(Path(sys.executable).with_name("bladerub"), "report", "-o", page)
+    assert done.returncode == 0, done.stderr
+    assert page.stat().st_size < 5e6
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    driver.get(page.as_uri())
+    pictures = "return [...document.images].every((image) => image.complete && image.naturalWidth > 0)"
+    assert driver.execute_script(pictures)
+    assert driver.execute_script("return document.documentElement.scrollWidth") <= width
+    assert driver.execute_script("return performance.getEntriesByType('resource').length") == 0
+    assert driver.get_log("browser") == []
+    driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
