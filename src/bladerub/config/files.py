@@ -82,17 +82,20 @@ class Located(NamedTuple):
                 yield from entry._walk((*parts, part))
 
 
-def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> Located:
+def compose(
+    *paths: str | Path, command_line: Mapping[str, Any] | None = None, source: str = "--config"
+) -> Located:
     """Read YAML files, each laid over those before it, and the values of the command line over them all.
 
     `command_line` is what ``snakemake --config`` was given; below the top, Snakemake leaves numbers as text.
+    `source` is what messages call it.
     Raises `ConfigError`, which names the file and the line, if one is missing, is not YAML, not a mapping or
     beyond limits.
     """
     config = Located({}, UNKNOWN)
     for path in paths:
         config = config.merged(read(path))
-    return config.merged(Located.of(_from_text(command_line or {}), Location("--config")))
+    return config.merged(Located.of(_from_text(command_line or {}), Location(source)))
 
 
 def read(path: str | Path, key: str | None = None, location: Location = UNKNOWN) -> Located:

@@ -37,13 +37,16 @@ def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> d
 
 
 def read_with_notes(
-    *paths: str | Path, command_line: Mapping[str, Any] | None = None, is_checked: bool = False
+    *paths: str | Path,
+    command_line: Mapping[str, Any] | None = None,
+    source: str = "--config",
+    is_checked: bool = False,
 ) -> tuple[dict[str, Any], list[str]]:
     """Read a config as `read`; return it, and the lines of `bladerub.config.notes`.
 
     One that `is_checked`, as by the process that started this one, is not checked again and has no notes.
     """
-    located = _composed(*paths, command_line=command_line)
+    located = _composed(*paths, command_line=command_line, source=source)
     absent = _absent(located)
     located = Located({k: v for k, v in located.content.items() if k not in absent}, located.location)
     if is_checked:
@@ -117,11 +120,11 @@ def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dic
     return values, notes(values)
 
 
-def _composed(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> Located:
+def _composed(*paths: str | Path, **command_line: Any) -> Located:
     """Lay files and the command line over the defaults of what plugs in."""
     from bladerub.config.models.study import defaults
 
-    return Located.of(defaults(), UNKNOWN).merged(files.compose(*paths, command_line=command_line))
+    return Located.of(defaults(), UNKNOWN).merged(files.compose(*paths, **command_line))
 
 
 def _absent(config: Located) -> list[str]:

@@ -18,11 +18,15 @@ def read(workflow: Any, config: Mapping[str, Any]) -> tuple[dict[str, Any], list
     laid over the config of the study. Raises `ConfigError` as `bladerub.config.read.read`.
     """
     settings = workflow.config_settings
-    base, laid_over = CONFIG, Record(settings.configfiles, settings.config)
+    base, laid_over, source = CONFIG, Record(settings.configfiles, settings.config), "--config"
     if config and config != settings.overwrite_config:
         base = CONFIG if CONFIG.is_file() and is_whole(CONFIG) else ROOT / CONFIG
-        laid_over = Record((), config)
-    values = laid_over.command_line
-    is_checked = not workflow.is_main_process
-    study, notes = read_with_notes(base, *laid_over.files, command_line=values, is_checked=is_checked)
+        laid_over, source = Record((), config), "config of the module"
+    study, notes = read_with_notes(
+        base,
+        *laid_over.files,
+        command_line=laid_over.command_line,
+        source=source,
+        is_checked=not workflow.is_main_process,
+    )
     return study, notes, laid_over

@@ -116,3 +116,11 @@ def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_pat
         assert (study["solver"]["revolutions"], notes) == (30, [])
         assert list(laid_over.files) == files
         assert by_file or laid_over == Record((), given)
+
+
+def test_a_mistake_in_a_module_statement_is_said_to_be_there(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    command_line = SimpleNamespace(configfiles=[], config={}, overwrite_config={})
+    workflow = SimpleNamespace(config_settings=command_line, is_main_process=True)
+    with pytest.raises(BadInput, match=r"^config of the module: solver.revolutions = 0: "):
+        settings.read(workflow, {"solver": {"revolutions": 0}})
