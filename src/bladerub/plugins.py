@@ -9,6 +9,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``RUN_OPTIONS`` what ``bladerub run`` can be asked for besides: classes as `bladerub.cli.run_option.RunOption`
 ``MANIFESTS``   rows of the manifests in folders of a name, for checks of all files
 ``INVENTORIES`` what counts runs beside those of the coatings, for ``bladerub status``
+``FAULTS``      what finds damaged, lost and unreadable files of results, for ``bladerub status --thorough``
 ``MEASURES``    what a run may be asked for besides itself, each with its module
 ``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`);
                 what the config says below one is in ``SECTIONS``

@@ -14,7 +14,7 @@ from bladerub.cli import main
 from bladerub.io.folders import PACKAGE
 
 PROGRAM = """
-import bladerub, bladerub.api.run, bladerub.workflow.integrity
+import bladerub, bladerub.api.run, bladerub.cli.status
 from bladerub.cli import parser
 print(*parser()._subparsers._group_actions[0].choices)
 print(*dir(bladerub))

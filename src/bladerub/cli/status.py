@@ -51,7 +51,6 @@ def status(options: argparse.Namespace) -> None:
     from bladerub.study import inventory
     from bladerub.study.grid import coating_cases, speeds
     from bladerub.study.plan import coating_plan
-    from bladerub.workflow import integrity
 
     results = inputs.study_folder() / config["results"]
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
@@ -68,8 +67,12 @@ def status(options: argparse.Namespace) -> None:
     ]
     counts = {name: part.counts for name, part in taken.items()}
     rows = inventory.total(part.counts for part in of_rows) if of_rows else None
-    faults = integrity.examine(results) if options.thorough else integrity.Faults([], [], [])
-    parts, lost_files = [*taken.values(), *of_rows, faults], faults.lost_files
+    examinations = plugins.loaded("FAULTS").values() if options.thorough else ()
+    faults = [examine(results) for examine in examinations]
+    parts, lost_files = (
+        [*taken.values(), *of_rows, *faults],
+        [path for part in faults for path in part.lost_files],
+    )
     damaged = list(dict.fromkeys(path for part in parts for path in part.damaged))
     unreadable = list(dict.fromkeys(line for part in parts for line in part.unreadable))
     if options.discard:

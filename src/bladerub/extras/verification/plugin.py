@@ -1,5 +1,6 @@
-"""Errors of runs, of laws and of tables."""
+"""Errors of runs, of laws, of tables and of files."""
 
+FAULTS = {"files": "extras.verification.integrity:examine"}
 COMMANDS = {
     "verify": "extras.verification.command",
     "compare": "extras.verification.compare_command",

@@ -10,12 +10,12 @@ import pandas as pd
 import pytest
 
 from bladerub.extras.chart.point import PointRow
+from bladerub.extras.verification.integrity import examine
 from bladerub.io import hdf5, tables
 from bladerub.io.checksum import file_checksum
 from bladerub.io.hdf5 import Variable
 from bladerub.study.manifest import ManifestRow, confirmation_path, write_manifest
 from bladerub.workflow import invocation
-from bladerub.workflow.integrity import examine
 
 RUN = "runs/2nd/0.1000.h5"
 MANIFEST = "runs/2nd/manifest.tsv"
