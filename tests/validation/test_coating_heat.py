@@ -72,7 +72,9 @@ def kept_share(result, ledgers, blade, spec):
     """Heat in the layer, over what the ledgers have as made: by flow, and half of that by friction."""
     rise = result.layer["temperature_rise"] * element_area(blade, spec)[:, None]
     made = sum(each.energy.wear + 0.5 * each.energy.sliding for each in ledgers)
-    return np.sum(rise) * CAPACITY * DEPTH / made  # all of it is in the heated depth
+    share = np.sum(rise) * CAPACITY * DEPTH / made  # all of it is in the heated depth
+    print(f"{share:.6f} of the heat")
+    return share
 
 
 def test_what_the_ledger_has_as_heat_is_in_the_layer(spec, coarse_blade):

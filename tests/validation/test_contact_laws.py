@@ -16,7 +16,6 @@ from bladerub.contact.laws import described_law, module_of
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.extras.heat import LAYER
 
-NIGHTLY = pytest.mark.nightly
 E, K, UNIT, THICKNESS, AREA, VISCOSITY = 1.1, 0.5, 600e6, 6e-3, 1e-6, 1e4
 YIELD = 1e-3  # normalised
 TIME = VISCOSITY / ((E + K) * UNIT)  # in which the overstress falls to 1/e
@@ -109,6 +108,7 @@ def test_work_is_stored_or_dissipated(law):
 def drawn(name, rng):
     """Draw a law whose parameter is spread over the range in which it matters."""
     low, high, parameter = {
+        "perfectly_plastic": (1e5, 3e6, "yield_stress"),
         "viscoplastic": (1e2, 1e5, "viscosity"),
         "brittle": (1e-3, 1e-1, "break_strain"),
         "thermal": (20.0, 2000.0, "softening_rise"),
@@ -117,11 +117,11 @@ def drawn(name, rng):
     return described_law(name, (LAYER if name == "thermal" else {}) | {parameter: value})
 
 
+LONG = [pytest.param(name, 100, marks=pytest.mark.nightly) for name in ("perfectly_plastic", "brittle")]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "runs"),
-    [("viscoplastic", 25), ("thermal", 25), pytest.param("brittle", 100, marks=NIGHTLY)],
-)
+@pytest.mark.parametrize(("name", "runs"), [("viscoplastic", 25), ("thermal", 25), *LONG])
 def test_the_ledger_of_random_runs_closes(run, name, runs):
     rng, residuals, worn = np.random.default_rng(8), [], 0
     for _ in range(runs):
@@ -135,12 +135,12 @@ def test_the_ledger_of_random_runs_closes(run, name, runs):
     assert worn > 0.9 * runs
 
 
+CONVERGING = [(VISCOPLASTIC, 0.0, 0.8), (THERMAL, 0.15, 1.7)]
+CONVERGING += [pytest.param(law, 0.0, 1.7, marks=pytest.mark.nightly) for law in (PERFECT, BRITTLE)]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("law", "theta", "least"),
-    [(VISCOPLASTIC, 0.0, 0.8), (THERMAL, 0.15, 1.7), pytest.param(BRITTLE, 0.0, 1.7, marks=NIGHTLY)],
-    ids=lambda law: getattr(law, "name", ""),
-)
+@pytest.mark.parametrize(("law", "theta", "least"), CONVERGING, ids=lambda law: getattr(law, "name", ""))
 def test_wear_converges_with_the_step(run, law, theta, least):
     """Of second order as with the plastic law, and of first where the flow over a step is implicit."""
     steps = np.array([20, 40, 80])

@@ -72,8 +72,3 @@ def test_exponential_scheme_does_not_damp_contact(kappa):
     np.testing.assert_allclose(casoratian / casoratian[0], 1.0, rtol=2e-3)
     cosine = (u[2:] + u[:-2]) @ u[1:-1] / (2 * u[1:-1] @ u[1:-1])
     assert np.arccos(cosine) == pytest.approx(2 * np.arcsin(np.sqrt(kappa) / 2), rel=1e-3)
-
-
-def test_exponential_scheme_refuses_a_step_too_long_for_the_contact():
-    with pytest.raises(ValueError, match="too long"):
-        deviations(1.1, scheme=exponential)

@@ -81,6 +81,8 @@ def test_a_search_from_more_speeds_computes_what_an_earlier_one_did_not(few_spee
     np.testing.assert_array_equal(again.spectrum_amplitude, whole.spectrum_amplitude)
     for name, values in whole.measures.items():
         np.testing.assert_array_equal(again.measures[name], values)
+    fewer = search.compute(few_speeds, CASE, blade, far, C1, whole)  # judges its own even speeds alone
+    np.testing.assert_array_equal(fewer.measures["divergent"], earlier.measures["divergent"])
 
 
 def test_each_measure_is_that_of_its_run(few_speeds, make_result, blade, monkeypatch):

@@ -13,11 +13,7 @@ SETTINGS = {"growth": 0.01, "revolutions": 10, "confidence": 0.95, "confirmation
 def coating() -> CoatingMap:
     """Three speeds: steady; growing and repeated for longer; out of bounds in the sixth revolution."""
     rng = np.random.default_rng(3)
-    f_omega, angle, order = (
-        np.array([0.1, 0.2, 0.3]),
-        (np.arange(60) + 0.5) * 2 * np.pi / 60,
-        np.arange(301) / 10,
-    )
+    f_omega, order = np.array([0.1, 0.2, 0.3]), np.arange(301) / 10
     wear = 1e-3 * rng.random((3, 60)).astype(np.float32)
     spectrum = 10 ** rng.uniform(-9, -2, (3, order.size))
     spectrum[2] = np.nan
@@ -30,7 +26,7 @@ def coating() -> CoatingMap:
         case=CoatingCase("2nd", 2.0, 0.5, 0.15),
         f_omega=f_omega,
         C1=np.sqrt(1 + f_omega**2),
-        angle=angle,
+        angle=(np.arange(60) + 0.5) * 2 * np.pi / 60,
         wear=wear,
         wear_node=np.repeat(wear[:, None], 8, axis=1),
         spectrum_order=order,

@@ -67,33 +67,22 @@ def test_a_formula_gives_what_it_gives_in_python(name, tmp_path):
     np.testing.assert_allclose(found.T, np.array(expected), rtol=1e-13, atol=1e-15)
 
 
-def module_with(**functions: str) -> tuple[ModuleType, str]:
-    """Return a law like the plastic one, with functions of this source in their place; and the source."""
-    source = "from bladerub.contact.law import *\n" + "\n".join(functions.values())
-    module = ModuleType("law")
-    exec(compile(source, "<law>", "exec"), module.__dict__)
-    return module, source
+OWN_LIMIT = "def elastic_limit(element, wear):\n    return wear\n"  # return_mapping has another
 
 
 @pytest.mark.parametrize(
-    ("body", "named"),
+    ("more", "body", "named"),
     [
-        ("return element.elastic * abs(depth)", "elastic_force: abs"),
-        ("return unheard_of * depth", "elastic_force: unheard_of"),
+        ("", "element.elastic * abs(depth)", "elastic_force: abs"),
+        ("", "unheard_of * depth", "elastic_force: unheard_of"),
+        (OWN_LIMIT, "elastic_limit(element, depth)", "elastic_limit: two functions of this name"),
     ],
 )
-def test_what_a_gpu_is_not_given_is_named(body, named):
-    module, source = module_with(elastic_force=f"def elastic_force(element, depth):\n    {body}\n")
+def test_what_a_gpu_is_not_given_is_named(more, body, named):
+    module, force = ModuleType("law"), f"def elastic_force(element, depth):\n    return {body}\n"
+    source = f"from bladerub.contact.law import *\n{more}{force}"
+    exec(compile(source, "<law>", "exec"), module.__dict__)
     with pytest.raises(ValueError, match=named):
-        formulas.of_law(module, source)
-
-
-def test_two_functions_of_one_name_are_refused():
-    own = "def elastic_limit(element, wear):\n    return wear\n"
-    calls = "def elastic_force(element, depth):\n    return elastic_limit(element, depth)\n"
-    module, source = module_with(elastic_limit=own, elastic_force=calls)
-    assert module.return_mapping is plastic.return_mapping  # whose limit is another
-    with pytest.raises(ValueError, match="elastic_limit: two functions of this name"):
         formulas.of_law(module, source)
 
 

@@ -10,22 +10,6 @@ from bladerub.study.plan import planned_run
 pytestmark = pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 
 
-@pytest.fixture(scope="module")
-def small(tmp_path_factory):
-    """A folder with a config whose blade is coarse, and a cache for this blade."""
-    folder = tmp_path_factory.mktemp("gpu")
-    mesh = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
-    (folder / "small.yaml").write_text(mesh + "results: results_of_no_workflow\n")
-    return folder
-
-
-@pytest.fixture(scope="module")
-def blade(small):
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("BLADERUB_CACHE", str(small / "cache"))
-        return br.build_blade(br.load_study(small / "small.yaml"))
-
-
 @pytest.fixture
 def gpu(monkeypatch):
     """Stand in for the GPU; lists how many runs it was given at once."""
@@ -41,9 +25,11 @@ def gpu(monkeypatch):
 
 
 @pytest.fixture
-def on_gpu(small):
-    path = small / "gpu.yaml"
-    path.write_text((small / "small.yaml").read_text() + "solver: {device: gpu}\n")
+def on_gpu(tmp_path):
+    """A study whose blade is coarse."""
+    mesh = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
+    path = tmp_path / "gpu.yaml"
+    path.write_text(f"{mesh}results: results_of_no_workflow\nsolver: {{device: gpu}}\n")
     return br.load_study(path)
 
 
@@ -61,8 +47,8 @@ def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
     assert key(Row.even(2)) == of_row  # which the processor computes in any case
 
 
-def test_speeds_are_computed_together(gpu, on_gpu, blade):
-    coating = on_gpu.coating("2nd", E=2, K=0.5)
+def test_speeds_are_computed_together(gpu, on_gpu):
+    blade, coating = br.build_blade(on_gpu), on_gpu.coating("2nd", E=2, K=0.5)
     runs_ = [coating.at(f, revolutions=3) for f in (0.19, 0.2)]
     found = maps.solve_all(blade, runs_, jobs=2, follow=False, progress=False)
     assert gpu == [2]

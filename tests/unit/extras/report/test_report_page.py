@@ -138,7 +138,7 @@ def test_a_study_that_is_not_finished_is_refused_in_a_line(study, report):
     assert "snakemake -j2 --configfile" in output.err
 
 
-def test_coatings_are_chosen_by_name(study, report, tmp_path):
+def test_coatings_are_chosen_by_name(report, tmp_path):
     assert report("--coating", "2nd")[0] == 2
     code, output = report("--json", "--coating", RIGID, "-o", str(tmp_path / "page.html"))
     assert (code, json.loads(output.out)["coatings"][0]) == (0, STRAIGHT)

@@ -1,1 +1,0 @@
-from study_fixtures import *  # noqa: F403 (fixtures)
