@@ -18,28 +18,16 @@ PAPER = Path(law.__file__).read_text(encoding="utf-8")
 FORCE = "return maximum(trial - element.elastic * increment, 0.0), increment"
 
 
-@pytest.fixture
-def written(tmp_path, monkeypatch):
-    """Write a law to a file: that of the paper, with something else in the place of its force."""
+def test_a_law_is_said_to_be_right_or_told_what_is_wrong(tmp_path, monkeypatch, capsys):
+    """That of the paper, and the same with a wear of the wrong sign."""
     monkeypatch.setattr(element_law, "TIME_STEPS", (1e-6,))
-
-    def write(force=FORCE):
-        path = tmp_path / "mine.py"
-        path.write_text(PAPER.replace(FORCE, force), encoding="utf-8")
-        return str(path)
-
-    return write
-
-
-def test_a_right_law_is_said_to_be_right(written, monkeypatch, capsys):
     monkeypatch.setattr(element_law, "compile_kernel", lambda law: None)
-    assert main(["check-law", written()]) == 0
+    path = tmp_path / "mine.py"
+    path.write_text(PAPER, encoding="utf-8")
+    assert main(["check-law", str(path)]) == 0
     assert capsys.readouterr().out == "mine: 120 histories, no problem; it compiles with the time loop\n"
-
-
-def test_a_wrong_law_is_told_what_is_wrong(written, capsys):
-    path = written(FORCE.replace(", increment", ", -increment"))
-    assert main(["check-law", path]) == 1
+    path.write_text(PAPER.replace(FORCE, FORCE.replace(", increment", ", -increment")), encoding="utf-8")
+    assert main(["check-law", str(path)]) == 1
     assert "- wear is negative (depth " in capsys.readouterr().out
 
 

@@ -44,18 +44,10 @@ def test_the_mesh_is_that_of_the_blade_with_its_sets(export, folder, tmp_path, n
         np.testing.assert_array_equal(data["centrifugal_0.4000"], mesh["static_displacement"][-1])
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["--calculix", "{}", "--speeds", "0.5"], "--speeds 0.5: must be from 0 to 0.4 (normalised)"),
-        (["--vtu", "{}/motion"], "--vtu: needs --run"),
-        (["--mesh", "{}/blade.inp", "--matrices", "{}/blade.npz"], "not allowed with argument"),
-    ],
-)
-def test_what_cannot_be_written_is_told(export, tmp_path, arguments, said):
-    code, out, err = export(*(argument.format(tmp_path) for argument in arguments))
+def test_what_cannot_be_written_is_told(export, tmp_path):
+    code, out, err = export("--calculix", tmp_path, "--speeds", "0.5")
     assert (code, out, err.count("\n")) == (2, "", 1)
-    assert said in err
+    assert "--speeds 0.5: must be from 0 to 0.4 (normalised)" in err
     assert not list(tmp_path.iterdir())
 
 

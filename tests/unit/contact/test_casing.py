@@ -20,6 +20,9 @@ def test_shape_is_the_scaled_sum_of_nodal_diameters():
     np.testing.assert_allclose(shape(TWO, angle), np.cos(2 * angle))
     expected = (0.25 * np.cos(2 * angle) + np.cos(5 * angle)) / 1.25
     np.testing.assert_allclose(shape(BOTH, angle), expected, atol=1e-9)
+    inverse = Casing("2nd4th", (2, 4), (1.0, -1.0), 0.5e-3, 0.36e-3, 0.0)  # highest where cos 2 φ = 1/4
+    expected = (np.cos(2 * angle) - np.cos(4 * angle)) * 8 / 9
+    np.testing.assert_allclose(shape(inverse, angle), expected, atol=1e-7)
 
 
 def test_gap_closes_to_clearance_less_interference_at_the_lobes():

@@ -25,15 +25,6 @@ def test_depth_over_speed_and_angle(coating_map, draws):
     assert early.get_marker() == "x"
 
 
-def test_speeds_that_were_not_run_stay_empty(coating_map, draws):
-    speeds = np.array([0.1, 0.12, 0.14, 0.3, 0.32, 0.34])
-    mesh = draws(wear_map(replace(coating_map, f_omega=speeds))).axes[0].collections[0]
-    columns = mesh.get_array().reshape(40, 7).mask.all(axis=0)
-    np.testing.assert_array_equal(columns, [False, False, False, True, False, False, False])
-    edges = mesh.get_coordinates()[0, :, 0]
-    np.testing.assert_allclose(edges, [0.09, 0.11, 0.13, 0.16, 0.28, 0.31, 0.33, 0.35])
-
-
 RANGE = (5e-7, 5e-4)
 
 

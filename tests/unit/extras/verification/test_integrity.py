@@ -62,6 +62,12 @@ def test_one_random_bit_is_found_wherever_it_is(results, name):
         assert results / name.removesuffix("-metadata.json") in examine(results).damaged, bit
 
 
+def test_a_whole_file_that_is_not_the_listed_one_is_damaged_and_a_missing_one_lost(results):
+    hdf5.write(results / RUN, {}, {"run_key": "other"})
+    (results / POINT).unlink()
+    assert examine(results) == ([results / RUN] * 3, [results / POINT], [])
+
+
 def test_what_the_system_refuses_is_not_damaged(results, monkeypatch):
     whole = Path.read_bytes
 
