@@ -5,6 +5,12 @@ from bladerub.config import record
 from bladerub.io.folders import ROOT
 
 COARSE = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
+SHORT = """contact: {elements: 200}
+coatings: [{casing: 2nd, E: [2, 20], K: [0.5], theta: [0.15]}]
+speeds: {start: 0.2, stop: 0.4, step: 0.1, extra: []}
+solver: {revolutions: 3}
+analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
+"""
 
 
 @pytest.fixture(scope="module")
@@ -35,6 +41,13 @@ def at_home(folder, monkeypatch, command):
     """Give a command in the folder."""
     monkeypatch.setattr(inputs, "study_folder", lambda: folder)
     return command
+
+
+@pytest.fixture
+def on_six_runs(folder, at_home):
+    """Give a command on a study of six short runs of a coarse blade."""
+    (folder / "six.yaml").write_text(COARSE + SHORT)
+    return lambda name, *words: at_home(name, "--config", folder / "six.yaml", *words)
 
 
 @pytest.fixture(autouse=True)

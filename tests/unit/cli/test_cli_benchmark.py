@@ -4,26 +4,10 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
-SMALL = """
-blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
-reduction: {accuracy_speeds: 3}
-contact: {elements: 200}
-coatings: [{casing: 2nd, E: [2, 20], K: [0.5], theta: [0.15]}]
-speeds: {start: 0.2, stop: 0.4, step: 0.1, extra: []}
-solver: {revolutions: 3}
-analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
-"""
-
-
-@pytest.fixture
-def benchmark(folder, at_home):
-    (folder / "small.yaml").write_text(SMALL)
-    return lambda *arguments: at_home("benchmark", "--config", folder / "small.yaml", *arguments)
-
 
 @pytest.mark.nightly
-def test_json_holds_every_figure(benchmark):
-    code, out, _ = benchmark("--json", "--rounds", "1", "--cores", "2")
+def test_json_holds_every_figure(on_six_runs):
+    code, out, _ = on_six_runs("benchmark", "--json", "--rounds", "1", "--cores", "2")
     assert code == 0
     told = json.loads(out)
     assert 0.2 < told["contact_share"] < 0.5
@@ -35,8 +19,8 @@ def test_json_holds_every_figure(benchmark):
     assert told["study_minutes"] * 2 * 60 > 6 * told["seconds_per_run"] > 0
 
 
-def test_bad_input_is_answered_in_one_line(benchmark):
-    code, _, error = benchmark("--nodes", "16", "33")
+def test_bad_input_is_answered_in_one_line(on_six_runs):
+    code, _, error = on_six_runs("benchmark", "--nodes", "16", "33")
     assert code == 2
     assert "--nodes 33: must be from 4 to 32" in error
     assert error.count("\n") == 1

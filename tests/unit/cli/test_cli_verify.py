@@ -3,24 +3,12 @@ import json
 import pytest
 
 MEASURES = {"wear_l2", "peak", "revolution_peak"}
-SMALL = """
-blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
-reduction: {accuracy_speeds: 3}
-contact: {elements: 200}
-coatings: [{casing: 2nd, E: [2, 20], K: [0.5], theta: [0.15]}]
-speeds: {start: 0.2, stop: 0.4, step: 0.1, extra: []}
-solver: {revolutions: 3}
-analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
-"""
 
 
 @pytest.fixture
-def figures(folder, at_home):
-    """Run the command on a study of six short runs of a coarse blade."""
-    (folder / "small.yaml").write_text(SMALL)
-
+def figures(on_six_runs):
     def of(*arguments):
-        code, out, _ = at_home("verify", "--config", folder / "small.yaml", "--json", *arguments)
+        code, out, _ = on_six_runs("verify", "--json", *arguments)
         assert code == 0
         return json.loads(out)
 
