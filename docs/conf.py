@@ -28,7 +28,7 @@ extensions = [
     "sphinxarg.ext",  # commands, from their parsers
     "sphinx_gallery.gen_gallery",  # examples, executed
 ]
-exclude_patterns = ["_build", "gallery"]
+exclude_patterns = ["_build", "_templates", "gallery"]
 nitpicky = True
 suppress_warnings = ["toc.empty_glob"]  # of research notes, where there are no studies
 
@@ -56,7 +56,10 @@ html_theme = "pydata_sphinx_theme"
 html_title = "bladerub"
 html_static_path = ["_static"]
 html_css_files = ["bladerub.css"]
+html_sidebars = {"**": ["pages.html"]}
+templates_path = ["_templates"]
 html_theme_options = {
+    "navbar_center": [],
     "navigation_with_keys": False,
     "show_toc_level": 2,
     "secondary_sidebar_items": ["page-toc"],

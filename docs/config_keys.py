@@ -7,18 +7,19 @@ from bladerub.config.keys import Key, key_of
 from bladerub.config.models.study import whole
 from bladerub.config.units import choices_by_kind
 
+_LONG = 60  # letters of a description that is written once
 HEAD = """\
 # Configuration
 
-The values of the study are in `config/config.yaml`. A file of your own needs only the keys that it changes:
-`snakemake -j2 --configfile my.yaml` lays it over the study, and each further file over those before. Mappings
-merge, a list is replaced as a whole. Values given on the command line (`--config`) are laid over all files.
-`[]` stands for each entry of a list, `<name>` for any name. A section that `config/config.yaml` does not
-have, such as `chart`, belongs to a further study: its values are those of the last column, and a file may
-change them as any others.
+The values of the study are in `config/config.yaml`. A file of your own needs only the keys that it changes
+([what is laid over what](how-to/vary_the_study.md#a-study-in-a-file-of-your-own)). `bladerub config my.yaml`
+checks it. Editors that know YAML schemas complete keys and mark mistakes with
+`# yaml-language-server: $schema=config/schema.json` in its first line (the path is relative to the file).
 
-`bladerub config my.yaml` checks a file. Editors that know YAML schemas check it as you type with
-`# yaml-language-server: $schema=config/schema.json` in its first line.
+Each line has a key, the value of the study, in parentheses what is allowed and the unit of a plain number,
+and the reason. f1 is the first frequency at rest, modulus_unit is `contact.modulus_unit`. `[]` stands for
+each entry of a list, `<name>` for any name. A section that `config/config.yaml` does not have, such as
+`chart`, belongs to a further study; a file may change it as any other.
 
 This page and `config/schema.json` are made from the models in `src/bladerub/config/models/` and the
 `settings.py` of extras by `snakemake -j1 docs/config.md`.
@@ -39,9 +40,6 @@ coatings:
 |---|---|
 {units}
 
-The column `unit` of the tables below says what a plain number is in: f1 is the first frequency at rest,
-modulus_unit is `contact.modulus_unit`.
-
 * A speed in rpm is divided by the first frequency of the blade of the config, which is computed the first
   time, in a few seconds, and kept. It is rounded to nine digits, so that it does not depend on the machine.
 * Speeds of a study have six decimals, about 0.01 rpm. Each speed of a grid in rpm is rounded by itself, so
@@ -54,46 +52,62 @@ modulus_unit is `contact.modulus_unit`.
 
 
 def reference(config: Mapping[str, Any]) -> str:
-    """Write the reference in Markdown: a section for each key at the top, a row for each key below it.
+    """Write the reference in Markdown: a section for each key at the top, a line for each key below it.
 
     `config` is the study, for the values that a config without that key has.
     """
     units_of_kinds = "\n".join(f"| {kind} | {names} |" for kind, names in choices_by_kind().items())
     sections = [HEAD.format(units=units_of_kinds)]
+    described: dict[str, str] = {}
     for name, key in key_of(whole()).fields().items():
-        rows = _rows(name, key, config.get(name))
-        table = ["| key | what | unit | may be | in the study |", "|---|---|---|---|---|", *rows]
-        sections.append("\n".join([f"## {name}", "", key.description, "", *table, ""]))
+        lines = [_line(*keys, described) for keys in _keys(name, key, config.get(name))]
+        sections.append("\n".join([f"## {name}", "", key.description, "", *lines, ""]))
     return "\n".join(sections)
 
 
-def _rows(path: str, key: Key, value: Any) -> Iterator[str]:
-    """Write a row for each key at and below a path; `value` is None where the study has no single one."""
+def _keys(path: str, key: Key, value: Any) -> Iterator[tuple[str, Key, Any]]:
+    """Yield each key at and below a path with its value, which is None where the study has no single one."""
     entry = key.entry if key.kind == "a list" else None
     is_plain = entry and not (entry.models or entry.entry)
     if "." in path or "[" in path or not (key.fields() or key.entry) or is_plain:
-        yield _row(path, key, value)
+        yield path, key, value
     for name, inner in key.fields().items():
         below = value.get(name) if isinstance(value, Mapping) else None
-        yield from _rows(f"{path}.{name}", inner, below)
+        yield from _keys(f"{path}.{name}", inner, below)
     if key.entry and not is_plain:
-        yield from _rows(f"{path}[]" if entry else f"{path}.<name>", key.entry, None)
+        yield from _keys(f"{path}[]" if entry else f"{path}.<name>", key.entry, None)
 
 
-def _row(path: str, key: Key, value: Any) -> str:
-    may_be = [key.allowed(), *map(str, key.limits)]
-    unit = key.unit.name
+def _line(path: str, key: Key, value: Any, described: dict[str, str]) -> str:
+    """Write the line of a key; a long description that another key has is said there alone."""
+    text = key.description if "." in path or "[" in path else ""  # of a section, above its lines
+    before = described.setdefault(text, path)
+    if before != path and len(text) > _LONG:
+        text = f"as `{before}`."
+    shown, allowed = _value(value), _allowed(key)
+    parts = [f"* `{path}`", f"= {shown}" if shown else "", f"({allowed})" if allowed else ""]
+    return " ".join(" ".join(filter(None, parts)).split()) + (f": {text}" if text else "")
+
+
+def _allowed(key: Key) -> str:
+    """Say what is allowed, with the unit: ``0.01 to 5 m``, ``2 to 50 entries``; nothing for a group."""
+    if key.models and key.kind != "a list":
+        return ""
+    allowed, unit, limits = key.allowed(), key.unit.name, key.limits
     if key.entry and key.kind == "a list":
-        may_be += [] if key.entry.models else [f"each {key.entry.allowed()}", *map(str, key.entry.limits)]
-        unit = key.entry.unit.name
-    cells = (
-        f"`{path}`",
-        key.description,
-        "" if unit == "1" else unit,
-        "; ".join(may_be),
-        _value(value),
-    )
-    return "| " + " | ".join(" ".join(cell.replace("|", "\\|").split()) for cell in cells) + " |"
+        allowed = allowed.removeprefix("a list of ")
+        if not key.entry.models:
+            allowed += f", each {_bounds(key.entry.allowed())}"
+            unit, limits = key.entry.unit.name, (*limits, *key.entry.limits)
+    return "; ".join([_bounds(allowed) + ("" if unit == "1" else f" {unit}"), *map(str, limits)])
+
+
+def _bounds(allowed: str) -> str:
+    """Leave out of ``a number from 0 to 1`` what its bounds say."""
+    for kind, short in (("a number ", ""), ("a whole number ", "whole, ")):
+        if allowed.startswith(kind):
+            return short + allowed.removeprefix(kind).removeprefix("from ").removeprefix("of ")
+    return allowed
 
 
 def _value(value: Any) -> str:

@@ -19,36 +19,38 @@ SECTIONS = {
     "Errors": ("InputError", "ConfigError"),
 }
 MARK = "<!-- signatures, written by `python -m docs.signatures` -->\n"
+END = "<!-- end of signatures -->\n"
 
 
 def updated(text: str) -> str:
     """Return the text of the page with the signatures of today."""
-    parts = [text.partition(MARK)[0] + MARK]
+    head, _, below = text.partition(MARK)
+    parts = [head + MARK]
     for title, names in SECTIONS.items():
         parts.append(f"## {title}\n")
         parts += [_described(getattr(bladerub, name)) for name in names]
-    return "\n".join(parts).rstrip() + "\n"
+    return "\n".join(parts).rstrip() + "\n\n" + END + below.partition(END)[2]
 
 
 def _described(thing: type) -> str:
-    """Return signature and first line of a function or class, and a table of the members of a class."""
+    """Return signature and first line of a function or class, and a list of the members of a class."""
     error = inspect.isclass(thing) and issubclass(thing, Exception)
     call = thing.__name__ if error else _call(thing.__name__, thing)
     lines = [f"**`{call}`**", f"{_first_line(thing)}\n"]
     members = [] if error or not inspect.isclass(thing) else _members(thing)
     if members:
-        lines += ["| member | what it is |", "|---|---|", *members, ""]
+        lines += [*members, ""]
     return "\n".join(lines)
 
 
 def _members(thing: type) -> list[str]:
-    """Return a row for each public method and property of a class."""
+    """Return a line for each public method and property of a class."""
     rows = []
     for name, member in vars(thing).items():
         plain = member.__func__ if isinstance(member, classmethod | staticmethod) else member
         if not name.startswith("_") and (inspect.isfunction(plain) or isinstance(plain, DATA)):
             call = _call(name, plain) if inspect.isfunction(plain) else name
-            rows.append(f"| `{call}` | {_first_line(plain)} |")
+            rows.append(f"* `{call}`: {_first_line(plain)}")
     return rows
 
 
@@ -65,9 +67,9 @@ def _call(name: str, function: object) -> str:
 
 
 def _first_line(thing: object) -> str:
-    """Return the first line of a description, for a cell of a table."""
+    """Return the first line of a description."""
     line = inspect.getdoc(thing).split("\n\n")[0]
-    for old, new in (("\n", " "), ("|", "\\|"), ("``", "`"), ("`bladerub.", "`")):
+    for old, new in (("\n", " "), ("``", "`"), ("`bladerub.", "`")):
         line = line.replace(old, new)
     return line
 

@@ -21,7 +21,7 @@ HEADING = re.compile(r"^#+ (.+)$", re.M)
 PATH = re.compile(r"(?<![\w/.])(?:src|tests|config|profiles)/[\w./-]*\w")
 NAME = re.compile(r"(?<![\w/.])bladerub(?:\.\w+)+")
 NOT_IN_GIT = {"src/bladerub/contact/__pycache__"}
-TERM_ROW = re.compile(r"^\| (?P<term>[^|]+) \| [^|]+ \| [^|]+ \| (?P<code>[^|]+) \| [^|]+ \|$", re.M)
+TERM_ROW = re.compile(r"^\| (?P<term>[^|]+) \| [^|]+ \| [^|]+ \| (?P<code>[^|]+) \|( [^|]+ \|)?$", re.M)
 
 
 def has_heading(page, heading):

@@ -127,7 +127,7 @@ def test_the_first_study(clone: Workspace):
 
 
 @pytest.mark.nightly
-def test_a_study_of_ones_own(clone: Workspace):
+def test_a_study_and_a_blade_of_ones_own(clone: Workspace):
     run("docs/tutorials/own_study.md", clone)
     results = clone.folder / "results_my_study"
     assert sorted(path.stem for path in (results / "maps").glob("*.h5")) == [
@@ -140,10 +140,6 @@ def test_a_study_of_ones_own(clone: Workspace):
     made_with = record.read(results)
     assert [Path(file).name for file in made_with.files] == ["quick.yaml", "my_study.yaml"]
 
-
-@pytest.mark.nightly
-def test_a_blade_of_ones_own(clone: Workspace):
-    run("docs/tutorials/own_blade.md", clone)
     figures = clone.folder / "results_my_blade" / "figures"
     made = sorted(path.relative_to(figures).as_posix() for path in figures.glob("**/*.png"))
     assert made == ["fig01_blade.png", "fig02_campbell.png", "wear_map/2nd_E2_K0.5_theta0.png"]

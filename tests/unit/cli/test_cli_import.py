@@ -177,8 +177,8 @@ def test_the_layout_of_rotor_67_is_converted_as_its_page_says(tmp_path, monkeypa
             blocks.append("\n ".join([f" {name}", " 1.000000", *lines]) + "\n")
         table = [np.full(39, number), x, r, upper / r, (upper - thickness) / r]
         expected.append(np.transpose(table)[6:33])  # of which the first and the last have no thickness
-    page = (ROOT / "docs" / "how-to" / "bring_sections.md").read_text(encoding="utf-8")
-    (code,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    page = (ROOT / "docs" / "how-to" / "bring_a_blade.md").read_text(encoding="utf-8")
+    code, _ = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     (tmp_path / "rotor67geometry.dat").write_text("".join(blocks))
     monkeypatch.chdir(tmp_path)
     exec(code, {})

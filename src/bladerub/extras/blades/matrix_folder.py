@@ -32,7 +32,7 @@ _SMALL = 1000  # bytes, of the head of an array
 _IN_NUMBERS = b"0123456789+-.eEdD \t\r\nnNaAiIfFtTyY"  # and in nan, inf, infinity
 _D_TO_E = bytes.maketrans(b"dD", b"eE")
 _SHOWN = 40  # characters of a line
-_CONVERTED = "docs/how-to/bring_matrices.md has the script that converts"
+_CONVERTED = "docs/how-to/bring_a_blade.md has the script that converts"
 SYMMETRY = 1e-8  # largest difference of two entries that must be equal, over the largest entry
 
 _POSITION = ("x", "y", "z")

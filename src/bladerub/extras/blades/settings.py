@@ -30,13 +30,12 @@ class Source(Section):
         None,
         pattern=r"^.+\.([iI][nN][pP]|[mM][sS][hH]|[vV][tT][uU]|[cC][sS][vV]|[tT][xX][tT]|[dD][aA][tT])$",
     )
-    """A mesh has hexahedra of 20 or 8 nodes or tetrahedra of 10 or 4, of one kind. A table has a row for each
-    station of a section, with columns section, x1, y1, z1, x2, y2, z2 or section, z, r, theta1, theta2. A
-    relative path is relative to the folder that Snakemake runs in."""
+    """A mesh has hexahedra of 20 or 8 nodes or tetrahedra of 10 or 4, of one kind; a table has a row for each
+    station of a section (docs/how-to/bring_a_blade.md). A relative path is relative to the folder that
+    Snakemake runs in."""
     matrices: Annotated[Omitted[str], Form("the path of a folder")] = Field(None, pattern=r"^.+$")
-    """The folder holds mass, stiffness_rest, stiffness_half and stiffness_max, each as .mtx (Matrix Market)
-    or .npz (SciPy), and nodes.csv (docs/how-to/bring_matrices.md); the stiffness is that about the
-    equilibrium at rest, at half of reduction.f_omega_max and at it."""
+    """The folder holds mass, stiffness_rest, stiffness_half and stiffness_max (at rest, at half of
+    reduction.f_omega_max and at it), each as .mtx or .npz, and nodes.csv (docs/how-to/bring_a_blade.md)."""
     matrix_units: Annotated[
         Omitted[Literal["SI", "mm-tonne", "inch-lbf"]],
         Form("SI (kg, N/m), mm-tonne (t, N/mm) or inch-lbf (lbf s²/in, lbf/in)"),

@@ -242,7 +242,7 @@ def test_one_negative_eigenvalue_among_many_is_found():
         check_definite(sparse.csc_array(stiffness))
 
 
-PAGE = Path(__file__).parents[4] / "docs" / "how-to" / "bring_matrices.md"
+PAGE = Path(__file__).parents[4] / "docs" / "how-to" / "bring_a_blade.md"
 
 
 MATRIX = np.array([[2.0, 0.5, -1.0], [0.5, 3.0, 0.0], [-1.0, 0.0, 4.0]])
@@ -257,7 +257,7 @@ WRITTEN = {
 
 @pytest.mark.parametrize("name", WRITTEN)
 def test_matrices_of_other_programs_become_matrix_market(name, tmp_path):
-    (code,) = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    _, code = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     (tmp_path / "convert.py").write_text(code)
     (tmp_path / name).write_text(WRITTEN[name])
     if name == "blade.sti":
