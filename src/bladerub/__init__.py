@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from bladerub.api.errors import InputError
     from bladerub.api.map import Map, read_map, simulate_speeds
     from bladerub.api.planned import StudyCoating, StudyRun
-    from bladerub.api.run import Run, plot_spectra, read_run
+    from bladerub.api.run import Run, read_run
     from bladerub.api.simulate import simulate
     from bladerub.api.study import Study, default_study, load_study
     from bladerub.config.errors import ConfigError
@@ -29,7 +29,7 @@ _MODULES = {
     "api.errors": ("InputError",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
     "api.planned": ("StudyCoating", "StudyRun"),
-    "api.run": ("Run", "plot_spectra", "read_run"),
+    "api.run": ("Run", "read_run"),
     "api.simulate": ("simulate",),
     "api.study": ("Study", "default_study", "load_study"),
     "config.errors": ("ConfigError",),
@@ -49,7 +49,6 @@ __all__ = [
     "build_blade",
     "default_study",
     "load_study",
-    "plot_spectra",
     "read_blade",
     "read_map",
     "read_run",

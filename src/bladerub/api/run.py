@@ -1,9 +1,9 @@
 """The outcome of one run, simulated here or read from its file."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -289,33 +289,6 @@ def read_run(path: str | Path) -> Run:
     if _LONGER not in runs and (longer := listed_longer(path, runs[""].attributes["run_key"])):
         runs[_LONGER] = store.read_run(longer)
     return run_of(runs)
-
-
-def plot_spectra(
-    runs: Iterable[Run], path: str | Path | None = None, *, ax: "Axes | None" = None
-) -> "Figure | Axes":
-    """Draw the spectra of several runs in one picture; arguments as of `Run.plot_spectrum`.
-
-    Its other plots draw several runs in one picture as well, if the same axes are given to each.
-
-    Raises
-    ------
-    ValueError
-        If there is no run.
-
-    Examples
-    --------
-    >>> import bladerub as br
-    >>> stiffer = br.simulate(blade, study.run("2nd", E=4, K=0.5, f_omega=0.19, revolutions=3))
-    >>> len(br.plot_spectra([run, stiffer]).axes[0].lines)
-    2
-    """
-    first, *others = runs
-    picture = first.plot_spectrum(None if others else path, ax=ax)
-    axes = cast("Figure", picture).axes[0] if ax is None else ax
-    for run in others:
-        run.plot_spectrum(path if run is others[-1] else None, ax=axes)
-    return picture
 
 
 def runs_of(run: Run, prefix: str = "") -> dict[str, StoredRun]:

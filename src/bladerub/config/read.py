@@ -57,25 +57,6 @@ def read_with_notes(
     return values, [*(f"{name}: left out, what reads it is not installed" for name in absent), *notes]
 
 
-def read_plan(
-    path: str | Path, kind: Any, key: str | None = None, study: Mapping[str, Any] | None = None
-) -> Located:
-    """Read and check a plan, which varies a config: the YAML file at `path`, of the model `kind`.
-
-    `key` is that of the config that names the file, reported if it cannot be read; `study` the config that it
-    is for, without which a speed, E or K of the plan is a plain number. Raises `ConfigError` as
-    `bladerub.config.files.compose`, and with every problem found.
-    """
-    from bladerub.config.problems import problems
-    from bladerub.config.quantities import converted
-
-    plan, _ = converted(files.read(path, key), kind, study)
-    texts, locations = dict.fromkeys(problems(plan.plain(), kind)), plan.locations()
-    if texts:
-        raise ConfigError(Problem(_location(text, locations, plan.location), text) for text in texts)
-    return plan
-
-
 def vary(config: Mapping[str, Any], *variations: Located) -> Located:
     """Lay variations of a plan over a config, without a check."""
     varied = Located.of(config, UNKNOWN)
@@ -114,7 +95,7 @@ def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dic
     if problems:
         as_typed = quantities.as_typed(typed, located)
         raise ConfigError(
-            Problem(_location(text, locations), (f"{variation}: " if variation else "") + as_typed(text))
+            Problem(location_of(text, locations), (f"{variation}: " if variation else "") + as_typed(text))
             for text in dict.fromkeys(problems)
         )
     return values, notes(values)
@@ -138,7 +119,7 @@ def _absent(config: Located) -> list[str]:
     return [name for name in unknown if name in published]
 
 
-def _location(problem: str, locations: Mapping[str, Location], default: Location = UNKNOWN) -> Location:
+def location_of(problem: str, locations: Mapping[str, Location], default: Location = UNKNOWN) -> Location:
     """Find the location of the key that a problem begins with, or of its innermost known group."""
     ends = (match.start() for match in re.finditer(r"[ :.[]", problem))
     keys = [problem[:end] for end in ends if problem[:end] in locations]

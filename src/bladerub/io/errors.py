@@ -6,8 +6,6 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import NoReturn
 
 _FULL = {errno.ENOSPC: "the disk is full", errno.EDQUOT: "the disk quota is used up"}
 _FORBIDDEN = {errno.EROFS, errno.EACCES, errno.EPERM}
@@ -26,15 +24,6 @@ def is_refused(error: Exception) -> bool:
     """
     absent = isinstance(error, FileNotFoundError | IsADirectoryError | NotADirectoryError)
     return isinstance(error, OSError) and bool(error.errno) and not absent
-
-
-def refuse_content(path: Path, error: Exception) -> NoReturn:
-    """Raise the `error` of a foreign reader: a ValueError of what it read, an OSError of the system."""
-    if is_refused(error) and error.errno != errno.EINVAL:  # that is of offsets in damaged archives
-        error.filename = error.filename or str(path)
-        raise error
-    reason = str(error) or type(error).__name__
-    raise ValueError(f"is not a {path.suffix.lower()} file that can be read ({reason})") from error
 
 
 class BadInput(ValueError):

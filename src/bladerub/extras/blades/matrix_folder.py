@@ -14,8 +14,8 @@ from scipy.io import mminfo, mmread
 from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.extras import cells
 from bladerub.extras.blades.element_quality import FARTHEST
+from bladerub.extras.blades.foreign import refuse_content
 from bladerub.extras.cells import Cells
-from bladerub.io.errors import refuse_content
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 SUFFIXES = (".mtx", ".npz")

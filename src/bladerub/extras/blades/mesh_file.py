@@ -15,7 +15,7 @@ import numpy as np
 from bladerub.blade.surface import EDGES
 from bladerub.extras.blades import deck_mesh, origin
 from bladerub.extras.blades.deck_mesh import Content
-from bladerub.io.errors import refuse_content
+from bladerub.extras.blades.foreign import refuse_content
 from bladerub.io.optional import package
 
 meshio = package("meshio", "mesh")

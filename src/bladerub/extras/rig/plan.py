@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
+from bladerub.extras import plans
 from bladerub.extras.rig.settings import RigPlan
 from bladerub.extras.rig.spec import Rig
 from bladerub.study.grid import element_law
@@ -15,7 +15,7 @@ PLAN = Path("config/rigs.yaml")
 def read_rigs(path: str | Path) -> list[Rig]:
     """Read rigs; raises `ConfigError`, with file, line, key, value and what would be right."""
     rigs = []
-    for name, located in configuration.read_plan(path, RigPlan).content["rigs"].content.items():
+    for name, located in plans.read_plan(path, RigPlan).content["rigs"].content.items():
         values = located.plain()
         try:
             law = element_law({"contact": {"law": values.pop("law", {})}})

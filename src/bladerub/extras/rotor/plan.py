@@ -6,9 +6,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
 from bladerub.config.files import Located
+from bladerub.extras import plans
 from bladerub.extras.rotor.settings import RotorPlan
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.rows.study import drawn
@@ -99,7 +99,7 @@ def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
     `ConfigError` if it is no plan, or the study has not its casings or speeds: the message has file, line,
     key, value and what would be right.
     """
-    located = configuration.read_plan(path, RotorPlan, study=config)
+    located = plans.read_plan(path, RotorPlan, study=config)
     plan = located.plain()
     sections = {name: located.content[name] for name in ("groups", "sweeps") if name in plan}
     if "patterns" in plan:

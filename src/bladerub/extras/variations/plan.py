@@ -15,9 +15,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.config import files
-from bladerub.config import read as configuration
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value
 from bladerub.config.files import Located
+from bladerub.extras import plans
 from bladerub.extras.variations.factors import Factor, read_factors
 from bladerub.extras.variations.settings import CalibrationPlan, IdentificationPlan, RobustnessPlan
 
@@ -130,7 +130,7 @@ def read(kind: str, path: str | Path, key: str | None = None) -> Plan:
         "robustness": (RobustnessPlan, _robustness),
         "identification": (IdentificationPlan, _identification),
     }[kind]
-    return reader(configuration.read_plan(path, model, key).content)
+    return reader(plans.read_plan(path, model, key).content)
 
 
 def _batches(first: int, count: int, size: int) -> dict[str, range]:

@@ -1,0 +1,28 @@
+"""Plans that vary a config, or describe what is beside the study: YAML files of their own models."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from bladerub.config import files
+from bladerub.config.errors import ConfigError, Problem
+from bladerub.config.files import Located
+from bladerub.config.problems import problems
+from bladerub.config.quantities import converted
+from bladerub.config.read import location_of
+
+
+def read_plan(
+    path: str | Path, kind: Any, key: str | None = None, study: Mapping[str, Any] | None = None
+) -> Located:
+    """Read and check a plan, which varies a config: the YAML file at `path`, of the model `kind`.
+
+    `key` is that of the config that names the file, reported if it cannot be read; `study` the config that it
+    is for, without which a speed, E or K of the plan is a plain number. Raises `ConfigError` as
+    `bladerub.config.files.compose`, and with every problem found.
+    """
+    plan, _ = converted(files.read(path, key), kind, study)
+    texts, locations = dict.fromkeys(problems(plan.plain(), kind)), plan.locations()
+    if texts:
+        raise ConfigError(Problem(location_of(text, locations, plan.location), text) for text in texts)
+    return plan
