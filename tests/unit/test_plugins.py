@@ -11,13 +11,23 @@ import pytest
 import bladerub as br
 from bladerub import plugins
 from bladerub.cli import main
-from bladerub.io.folders import PACKAGE
+from bladerub.config.models.study import required
+from bladerub.io.folders import PACKAGE, ROOT
 
 PROGRAM = """
+import sys
 import bladerub, bladerub.api.run, bladerub.cli.status
 from bladerub.cli import parser
+from bladerub.config.errors import ConfigError
+from bladerub.config.read import read
+study, mine = sys.argv[1:]
 print(*parser()._subparsers._group_actions[0].choices)
 print(*dir(bladerub))
+print(*read(study))
+try:
+    read(study, mine)
+except ConfigError as error:
+    print(error)
 """
 
 
@@ -37,14 +47,24 @@ def test_the_core_names_no_extra():
     assert not [path for path in core if named.search(path.read_text(encoding="utf-8"))]
 
 
-def test_the_core_does_without_extras(tmp_path):
+def test_the_core_does_without_extras_and_refuses_their_keys_in_a_line(tmp_path):
     without = shutil.ignore_patterns("extras", "__pycache__", "repository")
     shutil.copytree(PACKAGE, tmp_path / "bladerub", ignore=without)
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("chart: {casing: 2nd}\nblade: {source: {file: a.inp}}\nsolver: {device: gpu}\n")
+    command = [sys.executable, "-c", PROGRAM, ROOT / "config" / "config.yaml", mine]
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
-    lines = subprocess.check_output([sys.executable, "-c", PROGRAM], env=environment, text=True).splitlines()
-    assert lines[0].split() == ["new", "run", "status"]
-    assert "Rig" not in lines[1]
-    assert "simulate" in lines[1]
+    text = subprocess.check_output(command, env=environment, cwd=tmp_path, text=True)
+    commands, names, keys, *problems = text.splitlines()
+    assert commands.split() == ["new", "run", "status"]
+    assert "Rig" not in names
+    assert "simulate" in names
+    assert set(keys.split()) == required()
+    assert [line.partition(" = ")[0] for line in problems] == [
+        "mine.yaml:2: blade.source",
+        "mine.yaml:1: chart",
+        "mine.yaml:3: solver.device",
+    ]
 
 
 def test_a_command_says_which_folder_it_needs(monkeypatch, capsys):

@@ -49,6 +49,7 @@ def test_stale_runs_are_counted_and_damaged_ones_named_and_deleted_on_request(sm
     assert (printed["stale"], printed["missing"]) == (1, 5)
     assert "the blade is of another config" in printed["note"]
     hurt, whole = [folder / "0.2000.h5", folder / "confirmation" / "0.2000.h5"], folder / "0.3000.h5"
+    hurt.append(tmp_path / "results" / "blade" / "mesh.h5")
     hurt[1].parent.mkdir()
     for path in (hurt[1], whole):
         path.write_bytes(hurt[0].read_bytes())

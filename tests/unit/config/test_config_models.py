@@ -1,6 +1,3 @@
-import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -14,18 +11,6 @@ from bladerub.config.read import load
 from bladerub.io.folders import PACKAGE, ROOT
 
 STUDY = load(ROOT / "config" / "config.yaml")
-CORE = """
-from bladerub.config.read import read
-from bladerub.config.errors import ConfigError
-from bladerub.io.folders import ROOT
-import sys
-study, mine = sys.argv[1:]
-print(*read(study))
-try:
-    read(study, mine)
-except ConfigError as error:
-    print(error)
-"""
 
 
 def all_keys(key, path="", is_said=True):
@@ -65,23 +50,6 @@ def test_sections_plug_in_at_the_top_and_below():
     assert "source" in key_of(whole()).fields()["blade"].fields()
     assert defaults().keys() <= STUDY.keys()
     assert not defaults().keys() & required()
-
-
-def test_the_core_reads_its_study_without_extras_and_refuses_their_keys_in_a_line(tmp_path):
-    without = shutil.ignore_patterns("extras", "__pycache__", "repository")
-    shutil.copytree(PACKAGE, tmp_path / "bladerub", ignore=without)
-    mine = tmp_path / "mine.yaml"
-    mine.write_text("chart: {casing: 2nd}\nblade: {source: {file: a.inp}}\nsolver: {device: gpu}\n")
-    command = [sys.executable, "-c", CORE, ROOT / "config" / "config.yaml", mine]
-    lines = subprocess.check_output(
-        command, env={"PYTHONPATH": str(tmp_path)}, cwd=tmp_path, text=True
-    ).splitlines()
-    assert set(lines[0].split()) == required()
-    assert [line.partition(" = ")[0] for line in lines[1:]] == [
-        "mine.yaml:2: blade.source",
-        "mine.yaml:1: chart",
-        "mine.yaml:3: solver.device",
-    ]
 
 
 class Profile(Section):

@@ -72,7 +72,7 @@ def test_tables_and_figure_go_to_their_outputs(job):
     assert imread(job.output["png"]).shape[:2] == (70, 140)
     with open(job.output["pdf"], "rb") as stream:
         assert stream.read(4) == b"%PDF"
-    pd.testing.assert_frame_equal(tables.read(job.output["table"]), TABLE)
+    pd.testing.assert_frame_equal(tables.read(job.output["table"]), TABLE, check_exact=True)
     assert tables.read(job.output["data"])["f_omega"].tolist() == [0.123457]
 
 
