@@ -21,7 +21,7 @@ HEADING = re.compile(r"^#+ (.+)$", re.M)
 PATH = re.compile(r"(?<![\w/.])(?:src|tests|config|profiles)/[\w./-]*\w")
 NAME = re.compile(r"(?<![\w/.])bladerub(?:\.\w+)+")
 NOT_IN_GIT = {"src/bladerub/contact/__pycache__"}
-TERM_ROW = re.compile(r"^\| (?P<term>[^|]+) \| [^|]+ \| [^|]+ \| (?P<code>[^|]+) \|( [^|]+ \|)?$", re.M)
+TERM = re.compile(r"^\* .*\. (?P<code>`.+)$", re.M)
 
 
 def has_heading(page, heading):
@@ -85,8 +85,10 @@ def _defined_by(node):
 
 def test_the_glossary_names_keys_of_the_config_that_exist():
     config = load(ROOT / "config" / "config.yaml")
-    rows = TERM_ROW.finditer(PAGES[DOCS / "reference" / "glossary.md"])
-    named = {name for row in rows for name in re.findall(r"`([^`]+)`", row["code"])}
+    glossary = PAGES[DOCS / "reference" / "glossary.md"]
+    terms = [*TERM.finditer(glossary)]
+    assert len(terms) == glossary.count("\n* ")
+    named = {name for term in terms for name in re.findall(r"`([^`]+)`", term["code"])}
     keys = {name for name in named if not name.startswith("bladerub.")}
     assert len(keys) > 10
     for key in keys:
