@@ -91,7 +91,6 @@ rule all:
         rules.blade_tables.output,
         # the maps need them, but Snakemake replaces no lost one for a map that is there
         expand(rules.coating.output.manifest, coating=COATINGS),
-        LISTED_MEMBERS,
         expand(rules.coating.output.map, coating=COATINGS),
         rules.peaks.output,
         rules.divergence.output,

@@ -264,10 +264,7 @@ rule fig10_peaks:
     input:
         map=map_of(SOFT),
         blade=rules.blade.output.reduced_model,
-        ensembles=(
-            expand(rules.ensemble.output[0], coating=SOFT.name) if ENSEMBLES else []
-        ),
-        analysing=files_behind("study.bands"),
+        analysing=files_behind("study.maps", "study.peaks"),
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig10_peaks", "Wear and spectra", with_data=True),

@@ -1,9 +1,8 @@
-# Stages 3 and 4: the bands of a coating, and the tables over all coatings.
+# Stage 3: the tables over all coatings.
 import csv
 import os
 
 from bladerub.study.orders import peak_orders, used_casings
-from bladerub.workflow.cores import BEGUN
 
 # What decides the table of the peaks: the orders of a casing of its own, if it has any, besides those of all
 PEAKS = config["analysis"]["peaks"] | {
@@ -13,54 +12,11 @@ PEAKS = config["analysis"]["peaks"] | {
 }
 
 
-ENSEMBLE = f"{RESULTS}/ensembles/{{coating}}.h5"
-MEMBERS = f"{RESULTS}/runs/{{coating}}/ensemble/manifest.tsv"
-
-
-rule ensemble:
-    # The members are next to their manifest, undeclared, as the runs of a coating are
-    input:
-        replaces(workflow, ENSEMBLE, damage),
-        replaces(workflow, MEMBERS),
-        map=rules.coating.output.map,
-        blade=rules.blade.output.reduced_model,
-        kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("study.ensemble"),
-    output:
-        ENSEMBLE,
-        members=MEMBERS,
-    log:
-        f"{RESULTS}/logs/ensemble/{{coating}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/ensemble/{{coating}}.tsv"
-    priority: BEGUN  # the longest job of the study is one of these
-    group:
-        "rubs"
-    threads: ensemble_threads
-    resources:
-        mem_mb=memory_mb,
-        runtime=coating_minutes,
-    params:
-        folder=f"{RESULTS}/runs/{{coating}}",
-        ensemble=config["ensemble"],
-        peaks=PEAKS,
-        divergence=config["analysis"]["divergence"],
-    script:
-        "../scripts/ensemble.py"
-
-
-# None where the config wants none
-WITH_ENSEMBLE = COATINGS if config["ensemble"]["members"] else []
-ENSEMBLES = expand(rules.ensemble.output[0], coating=WITH_ENSEMBLE)
-LISTED_MEMBERS = expand(rules.ensemble.output.members, coating=WITH_ENSEMBLE)
-
-
 rule peaks:
     input:
         blade=rules.blade.output.reduced_model,
         maps=expand(rules.coating.output.map, coating=COATINGS),
-        ensembles=ENSEMBLES,
-        analysing=files_behind("study.bands"),
+        analysing=files_behind("study.peak_table"),
     output:
         **described(table=f"{TABLES}/peaks.csv"),
     log:
@@ -79,8 +35,7 @@ rule divergence:
     input:
         blade=rules.blade.output.reduced_model,
         maps=expand(rules.coating.output.map, coating=COATINGS),
-        ensembles=ENSEMBLES,
-        analysing=files_behind("study.bands"),
+        analysing=files_behind("study.divergence"),
     output:
         **described(table=f"{TABLES}/divergence.csv"),
     log:
@@ -110,11 +65,10 @@ def reported_robustness(wildcards):
 rule findings:
     input:
         maps=expand(rules.coating.output.map, coating=COATINGS),
-        ensembles=ENSEMBLES,
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
         rom_accuracy=rules.blade_tables.output.rom_accuracy,
-        analysing=files_behind("study.bands"),
+        analysing=files_behind("study.findings"),
     output:
         **described(table=shown(f"{TABLES}/findings.csv", "findings", "Claims")),
     log:

@@ -47,10 +47,6 @@ def coating_priority(wildcards):
     return priority_of(wildcards.coating, job_costs())
 
 
-def ensemble_threads(wildcards):
-    return share_of_cores(job_costs().ensembles[wildcards.coating])
-
-
 def coating_minutes(wildcards, attempt):
     return minutes_for(plan_of(wildcards.coating).runs, attempt)
 

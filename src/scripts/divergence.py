@@ -1,13 +1,14 @@
-"""Judge for every run whether it diverges, with the bands of those that have an ensemble."""
+"""Judge for every run whether it diverges."""
 
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.study import bands, ensemble
+from bladerub.study import divergence
+from bladerub.study.grid import modulus_unit
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
-maps, ensembles = map(read_map, snakemake.input.maps), map(ensemble.read, snakemake.input.ensembles)
-table = bands.of_runs(snakemake.config, list(maps), list(ensembles))
-outputs.save(snakemake, table=table.assign(rpm=outputs.rpm(snakemake, table.f_omega)))
+table = divergence.table(snakemake.config, map(read_map, snakemake.input.maps))
+units = {"modulus_unit": modulus_unit(snakemake.config), "rpm": outputs.rpm(snakemake, table.f_omega)}
+outputs.save(snakemake, table=table.assign(**units))

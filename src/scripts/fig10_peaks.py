@@ -1,4 +1,4 @@
-"""Fig. 10: maxima Y_k, f_k with their bands on the spectrum, and the amplitude along their orders (m)."""
+"""Fig. 10: maxima Y_k, f_k on the spectrum, and the amplitude along their orders (m)."""
 
 from bladerub.workflow import job
 
@@ -7,22 +7,17 @@ job.log_to(snakemake.log[0])
 import pandas as pd
 
 from bladerub.plots.spectrum import PeakSection, peak_sections
-from bladerub.study import bands, ensemble
 from bladerub.study.maps import read_map
 from bladerub.study.peaks import order_amplitude, peak, speed_window
 from bladerub.workflow import outputs
 
 coating, settings = read_map(snakemake.input.map), snakemake.params.peaks
-ensembles = [ensemble.read(path) for path in snakemake.input.ensembles]
-peaks = bands.of_peaks(snakemake.config, [coating], ensembles).set_index("order")
 sections = [
     PeakSection(
         order,
         order_amplitude(coating, order, settings["order_halfwidth"]),
         speed_window(coating, order, settings),
         peak(coating, order, settings),
-        tuple(peaks.loc[order, ["f_peak_low", "f_peak_high"]]),
-        tuple(peaks.loc[order, ["amplitude_low", "amplitude_high"]]),
     )
     for order in settings["orders"][:2]
 ]

@@ -6,7 +6,7 @@ job.log_to(snakemake.log[0])
 
 import math
 
-from bladerub.study import bands, ensemble, findings
+from bladerub.study import findings
 from bladerub.study.findings.evidence import read_rom_accuracy
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
@@ -16,8 +16,6 @@ rom_accuracy = read_rom_accuracy(snakemake.input.rom_accuracy)
 table = findings.table(
     snakemake.config, maps, snakemake.input.peaks, snakemake.input.divergence, rom_accuracy
 )
-ensembles = [ensemble.read(path) for path in snakemake.input.ensembles]
-table = bands.of_findings(snakemake.config, table, rom_accuracy, maps, ensembles)
 # the robustness counts only where its own reference has the verdict of this study
 robustness = [snakemake.params.robustness.get(id_, ("", math.nan)) for id_ in table["id"]]
 table["robustness"] = [

@@ -1,13 +1,14 @@
-"""Find the resonant peaks of every coating, with their bands."""
+"""Find the resonant peaks of every coating."""
 
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.study import bands, ensemble
+from bladerub.study import peak_table
+from bladerub.study.grid import modulus_unit
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
-maps, ensembles = map(read_map, snakemake.input.maps), map(ensemble.read, snakemake.input.ensembles)
-table = bands.of_peaks(snakemake.config, list(maps), list(ensembles))
-outputs.save(snakemake, table=table.assign(f_peak_rpm=outputs.rpm(snakemake, table.f_peak)))
+table = peak_table.table(snakemake.config, map(read_map, snakemake.input.maps))
+units = {"modulus_unit": modulus_unit(snakemake.config), "f_peak_rpm": outputs.rpm(snakemake, table.f_peak)}
+outputs.save(snakemake, table=table.assign(**units))

@@ -16,7 +16,6 @@ def numbers(tables):
     """Return the text for each name on the page."""
     return (
         _steps(tables["steps"])
-        | _errors(tables["peaks"], tables["findings"])
         | _accuracy(tables["accuracy"])
         | _elements(tables["finer_bars"])
         | _nodes(tables["more_nodes"])
@@ -54,19 +53,6 @@ def _steps(steps):
             },
         ),
         "sample": fixed(study.groupby("E").size().max()),
-    }
-
-
-def _errors(peaks, findings):
-    error = peaks["amplitude_error"] / peaks["amplitude"]
-    moved = int((peaks["f_peak_error"] > 0).sum())
-    return {
-        "verdicts": fixed(len(findings)),
-        "verdicts_kept": fixed((findings["holds"] == findings["holds_refined"]).sum()),
-        "peaks": fixed(error.notna().sum()),
-        "peak_error_median": percent(error.median(), 3),
-        "peaks_beyond": fixed((error > 0.01).sum()),
-        "peaks_moved": fixed(moved),
     }
 
 

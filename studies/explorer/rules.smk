@@ -13,6 +13,8 @@ rule explorer:
         maps=expand(rules.coating.output.map, coating=COATINGS),
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
+        # of the study `ensembles`, where it is there: bands of peaks and of runs
+        bands=lambda wildcards: list(ADDED_TO_ALL.get("bands", []))[:2],
         packing=files_behind("extras.explorer.page"),
         page=sorted(glob("src/bladerub/extras/explorer/page/*")),
         analysing=files_behind("study.summary"),

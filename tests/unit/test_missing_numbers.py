@@ -21,7 +21,7 @@ from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.polar import wear_profiles
 from bladerub.plots.spectrum import PeakSection, peak_sections, spectrum_map
 from bladerub.plots.wear_map import wear_map
-from bladerub.study import bands, ensemble, findings
+from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import coating_cases, speeds
 from bladerub.study.manifest import ManifestRow, write_manifest
@@ -76,7 +76,6 @@ def study(config):
     grid = {"start": 0.05, "stop": 0.4, "step": 0.05, "extra": [0.19, 0.197]}
     config |= {"coatings": QUICK, "speeds": grid}
     config["analysis"]["histories"] = []
-    config["ensemble"]["members"] = 1
     return config
 
 
@@ -96,16 +95,9 @@ def accuracy(tmp_path):
 
 def judged(study, maps, accuracy):
     """Make all tables of the study; return the findings by claim."""
-    drawn, rom_accuracy = [], pd.read_csv(accuracy)
-    for coating in maps:
-        chosen = ensemble.chosen(study, coating)
-        at = np.isin(coating.f_omega, chosen)
-        values = {name: getattr(coating, name)[at] for name in (*ensemble.OVER_SPEED, "C1", "f_omega")}
-        member = replace(coating, wear_node=None, **values)
-        drawn.append(ensemble.Ensemble(np.zeros((1, chosen.size)), (member,), member))
-    made = {"peaks": bands.of_peaks(study, maps, drawn), "divergence": bands.of_runs(study, maps, drawn)}
-    found = findings.judge(Evidence(study, made | {"rom_accuracy": rom_accuracy}, maps))
-    return made, bands.of_findings(study, found, rom_accuracy, maps, drawn).set_index("id")
+    made = {"peaks": peak_table.table(study, maps), "divergence": divergence.table(study, maps)}
+    rom_accuracy = pd.read_csv(accuracy)
+    return made, findings.judge(Evidence(study, made | {"rom_accuracy": rom_accuracy}, maps)).set_index("id")
 
 
 @pytest.mark.parametrize(("kind", "places"), [*zip(HOSTILE, ((0, 8), (1, 9), (7, 9)), strict=True)])
@@ -139,14 +131,14 @@ def test_one_bad_coating_takes_no_number_from_the_others(study, sound, kind, pla
 def test_every_figure_and_page_is_made(study, sound, kind, accuracy, tmp_path):
     maps = [HOSTILE[kind](coating) for coating in sound]
     made, _ = judged(study, maps, accuracy)
-    settings, nan = peak_settings(study, "2nd"), (np.nan, np.nan)
+    settings = peak_settings(study, "2nd")
     figures = [wear_profiles([each for each in maps if each.case.E == 2], [0.19, 0.197])[1]]
     for coating in maps[-2:]:
         sections = []
         for order in settings["orders"]:
             amplitude = order_amplitude(coating, order, settings["order_halfwidth"])
             window, found = speed_window(coating, order, settings), peak(coating, order, settings)
-            sections.append(PeakSection(order, amplitude, window, found, nan, nan))
+            sections.append(PeakSection(order, amplitude, window, found))
         figures += [wear_map(coating), spectrum_map(coating, RANGE, 2.0), Map(coating).plot_spectrum()]
         figures.append(peak_sections(coating, sections, RANGE, 2.0))
     layer = made["peaks"].query("casing == '2nd' and theta == 0 and E < 1e9")

@@ -1,5 +1,7 @@
 """A quantity over Young modulus and plastic modulus: bars like the paper's, and a map to read from."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pandas as pd
 from matplotlib import colormaps
@@ -15,8 +17,26 @@ from bladerub.plots.scales import greatest
 from bladerub.plots.style import HEIGHT_MAP, MISSING, PAGE, RED, new_figure, styled
 
 _BAR = 0.62  # width of a bar, in steps of the moduli
-_WIDE = {"amplitude": 0.1, "f_peak": 0.01}  # half a band that is hatched: relative of Y, absolute of f
 _ROOM = 0.01  # from the floor to the lowest speed, normalised: it is seen, and the differences too
+
+
+class Heights(NamedTuple):
+    """A quantity over the moduli as it is drawn: amplitudes in mm, speeds normalised."""
+
+    values: pd.DataFrame  # over E (rows) and K (columns), ascending; NaN for none
+    label: str
+    digits: int
+    norm: Normalize  # of their colours
+
+    @classmethod
+    def of(cls, peaks: pd.DataFrame, quantity: str, order: int) -> "Heights":
+        """Take ``amplitude`` or ``f_peak`` of an engine `order`; parameters as of `peak_histogram`."""
+        table = peaks[peaks.order == order].pivot(index="E", columns="K", values=quantity).astype(float)
+        if quantity == "amplitude":
+            return cls(1e3 * table, f"$Y_{order}$ (mm)", 2, Normalize(0.0, 1e3 * greatest(table.to_numpy())))
+        top = greatest(table.to_numpy())
+        norm = Normalize(np.fmin.reduce(table.to_numpy(), axis=None, initial=top) - _ROOM, top)
+        return cls(table, f"rotational frequency $f_{order}$ (normalised)", 3, norm)
 
 
 @styled
@@ -27,45 +47,26 @@ def peak_histogram(
 
     The `quantity` is ``amplitude``, drawn in mm, or ``f_peak`` of `peaks`, rows of ``peaks.csv`` of one
     casing and one theta; the table is those of the engine `order`. The moduli are drawn as equal steps, NaN
-    as no bar and a grey field with a dash. Half the band of the ensemble, if there
-    is one, stands below the value where it shows at its digits; a wide one is hatched. E = 1 and K = 1 are
-    `unit`, Pa.
+    as no bar and a grey field with a dash. E = 1 and K = 1 are `unit`, Pa.
     """
-    ends = [f"{quantity}_{end}" for end in ("low", "high")]
-    rows = peaks.loc[peaks.order == order, ["casing", "E", "K", "theta", "order", quantity, *ends]]
-    table, is_amplitude = rows.pivot(index="E", columns="K", values=quantity), quantity == "amplitude"
-    low, high = (rows.pivot(index="E", columns="K", values=end).to_numpy(dtype=float) for end in ends)
-    half = (1e3 if is_amplitude else 1) * (high - low) / 2
-    label = f"$Y_{order}$ (mm)" if is_amplitude else f"rotational frequency $f_{order}$ (normalised)"
-    values = (1e3 if is_amplitude else 1) * table.to_numpy(dtype=float)
-    top = greatest(values)
-    lowest = np.min(values, where=values == values, initial=top)
-    norm = Normalize(0.0 if is_amplitude else lowest - _ROOM, top)
+    heights = Heights.of(peaks, quantity, order)
     figure = new_figure(PAGE, 0.52 * PAGE)
     bar_cell, map_cell = figure.add_gridspec(1, 2, width_ratios=[1.1, 1])
     bars, colours = figure.add_subplot(bar_cell, projection="3d"), figure.add_subplot(map_cell)
-    _draw_bars(bars, values, norm)
-    _draw_map(colours, values, half, label, 2 if is_amplitude else 3, norm)
-    wide = half > _WIDE[quantity] * (values if is_amplitude else 1)
-    for i, j in np.argwhere(wide):
-        hatched = {"fill": False, "edgecolor": "white", "linewidth": 0, "hatch": "////", "alpha": 0.45}
-        colours.add_patch(Rectangle((i - 0.5, j - 0.5), 1, 1, **hatched))
-    for axes in (bars, colours):
-        axes.set_xticks(range(len(table.index)), [f"{E:g}" for E in table.index])
-        axes.set_yticks(range(len(table.columns)), [f"{K:g}" for K in table.columns])
+    _draw_bars(bars, heights)
+    draw_map(colours, heights)
     colours.set(**titles.moduli_axes(unit))
-    bars.set_title(f"(a) {label}", loc="left")
-    notes = ["maximum framed"] if is_amplitude else []
-    notes += ["± 90 % band"] if np.isfinite(half).any() else []
-    notes += [f"hatched above {'10 %' if is_amplitude else '0.01'}"] if wide.any() else []
-    colours.set_title(f"(b) {', '.join(notes)}".strip())
-    for i, j in np.argwhere((values == top) & is_amplitude):
+    bars.set_title(f"(a) {heights.label}", loc="left")
+    colours.set_title("(b) maximum framed" if quantity == "amplitude" else "(b)")
+    for i, j in np.argwhere((heights.values.to_numpy() == heights.norm.vmax) & (quantity == "amplitude")):
         frame = {"fill": False, "edgecolor": RED, "linewidth": 2, "clip_on": False}
         colours.add_patch(Rectangle((i - 0.5, j - 0.5), 1, 1, **frame))
-    return rows, figure
+    columns = ["casing", "E", "K", "theta", "order", quantity]
+    return peaks.loc[peaks.order == order, columns], figure
 
 
-def _draw_bars(axes: Axes3D, values: np.ndarray, norm: Normalize) -> None:
+def _draw_bars(axes: Axes3D, heights: Heights) -> None:
+    values, norm = heights.values.to_numpy(), heights.norm
     i, j = np.nonzero(~np.isnan(values))
     top = values[i, j]
     look = {"color": colormaps[HEIGHT_MAP](norm(top)), "edgecolor": "#202020", "linewidth": 0.25}
@@ -74,26 +75,31 @@ def _draw_bars(axes: Axes3D, values: np.ndarray, norm: Normalize) -> None:
     n_E, n_K = values.shape
     axes.set(xlim=(-0.6, n_E - 0.4), ylim=(-0.6, n_K - 0.4), zlim=(norm.vmin, norm.vmax))
     axes.set(xlabel="E", ylabel="K")
+    _name_moduli(axes, heights)
     axes.zaxis.set_major_locator(MaxNLocator(nbins=5))
     axes.tick_params(pad=-2, labelsize=min(6.5, 55 / n_E))
     axes.view_init(elev=32, azim=-60)
     axes.set_box_aspect((1.5, 1.1, 0.9), zoom=1.12)
 
 
-def _draw_map(
-    axes: Axes, values: np.ndarray, half: np.ndarray, label: str, digits: int, norm: Normalize
-) -> None:
+def draw_map(axes: Axes, heights: Heights) -> None:
+    """Draw `heights` as colours, each with its number, over the places of E and K."""
+    values, norm = heights.values.to_numpy(), heights.norm
     n_E, n_K = values.shape
     E_edges, K_edges = np.arange(n_E + 1) - 0.5, np.arange(n_K + 1) - 0.5
     look = {"cmap": HEIGHT_MAP, "norm": norm, "edgecolors": "white", "linewidth": 0.8}
     mesh = axes.pcolormesh(E_edges, K_edges, np.ma.masked_invalid(values.T), **look)
     size = min(7.0, 60 / n_E)
     for (i, j), value in np.ndenumerate(values):
-        text = "–" if np.isnan(value) else f"{value:.{digits}f}"
-        if half[i, j] >= 0.5 * 10**-digits:
-            text += f"\n±{half[i, j]:.{digits}f}"
+        text = "–" if np.isnan(value) else f"{value:.{heights.digits}f}"
         on_dark = not np.isnan(value) and norm(value) < 0.6
         axes.text(i, j, text, ha="center", va="center", fontsize=size, color="white" if on_dark else "black")
+    _name_moduli(axes, heights)
     axes.set_facecolor(MISSING)
-    bar = axes.figure.colorbar(mesh, ax=axes, label=label, location="bottom", aspect=30)
+    bar = axes.figure.colorbar(mesh, ax=axes, label=heights.label, location="bottom", aspect=30)
     bar.locator = MaxNLocator(nbins=5)
+
+
+def _name_moduli(axes: Axes, heights: Heights) -> None:
+    axes.set_xticks(range(heights.values.index.size), [f"{E:g}" for E in heights.values.index])
+    axes.set_yticks(range(heights.values.columns.size), [f"{K:g}" for K in heights.values.columns])

@@ -44,8 +44,6 @@ class PeakSection:
     amplitude: np.ndarray  # (n,), on eo(k) at each speed, m
     window: tuple[float, float]  # speeds between which the maximum was searched, normalised
     peak: Peak
-    speed_band: tuple[float, float]  # ends of the band of its speed, normalised; NaN without an ensemble
-    amplitude_band: tuple[float, float]  # and of its amplitude, m
 
 
 def _draw_alone(
@@ -176,11 +174,6 @@ def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: d
         axes.axhspan(*section.window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
     axes.plot(1e3 * section.amplitude, f_omega, markersize=2.2, linewidth=1.0, label=label, **look)
     _draw_ring(axes, height, f_peak)
-    if np.isfinite(section.amplitude_band).all():
-        low, high = 1e3 * np.array(section.amplitude_band)
-        bars = {"color": RED, "linewidth": 1.2, "zorder": 5, "label": f"_band{k}"}
-        axes.plot([low, high], [f_peak, f_peak], **bars)
-        axes.plot([height, height], section.speed_band, **bars)
 
 
 def _draw_ring(axes: Axes, x: float, y: float) -> None:

@@ -34,9 +34,6 @@ FIVE_LOBES = ((0.0, 0.08), (0.24, 0.34))
 TEN_LOBES, FOUR_LOBES = 0.1, 0.38
 """Speeds of ten and of four worn lobes (Figs. 6 and 7)."""
 
-LOBES = (*FIVE_LOBES, *((f_omega - NEAR, f_omega + NEAR) for f_omega in (TEN_LOBES, FOUR_LOBES)))
-"""Speeds between which the claims on worn lobes look."""
-
 SIGNIFICANT = 0.1
 """Share of the greatest value from which on a value still shows in a plot."""
 

@@ -52,13 +52,6 @@ def speed_window(coating: Response, order: float, settings: Mapping[str, Any]) -
     return low * crossing, high * crossing
 
 
-def nearest_speed(coating: Response, order: float, settings: Mapping[str, Any]) -> int:
-    """Return the place among the speeds of the peak or, where there is none, of where the order meets C1."""
-    f_peak = peak(coating, order, settings).f_omega
-    distance = order * coating.f_omega - coating.C1 if np.isnan(f_peak) else coating.f_omega - f_peak
-    return int(np.argmin(np.abs(distance)))
-
-
 def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.ndarray:
     """Largest amplitude within `halfwidth` of an engine order at each speed, m (n,); NaN without a spectrum.
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bladerub.study.ensemble import expected_cost
+from bladerub import plugins
 from bladerub.study.grid import coating_cases, speeds
 
 FEWEST = 8
@@ -19,19 +19,19 @@ STIFF = 28.0
 """E / f_omega from which on the time of a run is about proportional to it, as its steps are."""
 
 BEGUN = 1
-"""Priority of the ensembles of a coating: they come before the runs of any other."""
+"""Priority of the further jobs of a coating: they come before the runs of any other."""
 
 
 class Costs(NamedTuple):
-    """What runs and ensembles of each coating of a study cost, by its name, in runs on a soft coating."""
+    """What the jobs of each coating of a study cost, by its name, in runs on a soft coating."""
 
     runs: Mapping[str, float]
-    ensembles: Mapping[str, float]
+    further: Mapping[str, Mapping[str, float]]  # by the name of the rule first (``COSTS`` of `plugins`)
 
     @property
     def total(self) -> float:
         """Of the whole study."""
-        return sum(self.runs.values()) + sum(self.ensembles.values())
+        return sum(self.runs.values()) + sum(sum(costs.values()) for costs in self.further.values())
 
 
 def threads_for(cost: float, total: float, cores: int | None) -> int:
@@ -50,7 +50,7 @@ def priority_of(coating: str, costs: Costs) -> float:
     Those that take longest so come first and none of them is left at the end, with the other cores idle.
     Zero for a coating that `costs` do not have.
     """
-    of_coating = costs.runs.get(coating, 0) + costs.ensembles.get(coating, 0)
+    of_coating = sum(part.get(coating, 0) for part in (costs.runs, *costs.further.values()))
     return BEGUN * of_coating / (1 + costs.total)
 
 
@@ -68,5 +68,8 @@ def costs_of(config: Mapping[str, Any]) -> Costs:
     }
     return Costs(
         runs={case.name: weight * f_omega.size for case, weight in weights.items()},
-        ensembles={case.name: weight * expected_cost(config, case) for case, weight in weights.items()},
+        further={
+            rule: {case.name: weight * cost(config, case) for case, weight in weights.items()}
+            for rule, cost in plugins.loaded("COSTS").items()
+        },
     )

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import bladerub as br
+from bladerub.extras.ensembles import ensemble as study_ensemble
 from bladerub.io.equality import equal
-from bladerub.study import ensemble as study_ensemble
 from bladerub.study.manifest import ManifestRow, confirmation_path, write_manifest
 
 

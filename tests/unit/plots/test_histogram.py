@@ -12,15 +12,14 @@ PEAKS = pd.DataFrame(
         ("2nd", 1.1, 0.5, 0.0, 6, 0.2, 9e-3),
     ],
     columns=["casing", "E", "K", "theta", "order", "f_peak", "amplitude"],
-).assign(**{f"{name}_{end}": np.nan for name in ("f_peak", "amplitude") for end in ("low", "high")})
+)
 
 
 def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(draws, monkeypatch):
     bars = []
     monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
     table, figure = peak_histogram(PEAKS, "amplitude", order=4, unit=600e6)
-    ends = ["amplitude_low", "amplitude_high"]
-    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude", *ends]
+    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude"]
     pd.testing.assert_frame_equal(table, PEAKS.loc[PEAKS.order == 4, table.columns])
     ((x, y, floor, width, depth, height),) = bars
     places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)

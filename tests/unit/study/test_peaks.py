@@ -45,15 +45,14 @@ def test_a_line_at_the_halfwidth_belongs_to_the_order(make_map, halfwidth, count
 def test_a_missing_peak_has_a_reason(make_map, settings):
     unbounded = make_map(CASE, {})
     unbounded.spectrum_amplitude[(unbounded.f_omega > 0.1) & (unbounded.f_omega < 0.25)] = np.nan
-    for coating, order, reason, nearest in (
-        (make_map(CASE, {}, [0.05, 0.1, 0.3]), 6, "no run between", 0.1),
-        (unbounded, 6, "none of the 7 runs between", 0.17),
-        (make_map(CASE, {}), 2, "order 2 does not cross C1", 0.4),
+    for coating, order, reason in (
+        (make_map(CASE, {}, [0.05, 0.1, 0.3]), 6, "no run between"),
+        (unbounded, 6, "none of the 7 runs between"),
+        (make_map(CASE, {}), 2, "order 2 does not cross C1"),
     ):
         f_omega, amplitude, why = peaks.peak(coating, order, settings)
         assert np.isnan([f_omega, amplitude]).all()
         assert why.startswith(reason)
-        assert coating.f_omega[peaks.nearest_speed(coating, order, settings)] == nearest
 
 
 def test_the_table_has_a_row_per_coating_and_order(config, make_map):

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import ASCENDING, Limit, Metre, Number, Omitted, Section, Seed, Speed, Unit
+from bladerub.config.fields import ASCENDING, Limit, Metre, Number, Omitted, Section, Speed, Unit
 from bladerub.config.models.coatings import Histories
 from bladerub.config.models.quantities import EngineOrders
 
@@ -55,22 +55,6 @@ class Analysis(Section):
     lobe_prominence: Annotated[float, Unit("greatest worn depths")] = Field(gt=0, lt=1)
     """How much a worn lobe must stand out to be counted."""
     histories: Histories
-
-
-class Ensemble(Section):
-    """The runs at the peaks of each coating with their neighbours in speed, repeated from other starts.
-
-    So are those that claims name: chaotic runs differ by 5 to 30 %. The bands in `peaks.csv` and
-    `divergence.csv` and the shares in `findings.csv` come from them.
-    """
-
-    members: int = Field(ge=0, le=1000)
-    """So many starts of each run, besides the study's own; with 0 tables have no bands."""
-    displacement: Metre = Field(gt=0, le=1e-5)
-    """Largest one at the start, of node 1, radially, in the first mode. A start is drawn evenly between this
-    and its negative: far above rounding, far below the tolerance to which a blade tip is made."""
-    seed: Seed
-    """Another seed draws other starts."""
 
 
 class Figures(Section):

@@ -9,7 +9,7 @@ from pydantic.fields import FieldInfo
 
 from bladerub import plugins
 from bladerub.config.fields import BladeLengths, Form, Limit, Number, Omitted, Section, Speed, Unit
-from bladerub.config.models.analysis import Analysis, Ensemble, Figures
+from bladerub.config.models.analysis import Analysis, Figures
 from bladerub.config.models.blade import Blade, Reduction
 from bladerub.config.models.coatings import Coatings
 from bladerub.config.models.contact import Casings, Contact
@@ -76,7 +76,6 @@ class Study(Section):
     speeds: Speeds
     solver: Solver
     analysis: Analysis
-    ensemble: Ensemble
     figures: Figures
 
 

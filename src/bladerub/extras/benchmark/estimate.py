@@ -2,9 +2,11 @@
 
 1. Runs at even distances in the list of the study, so from all coatings and speeds, are computed and stored
    as the study does it, in as many threads as it would have jobs. Those that grow are followed further.
-2. The members of the ensembles cost what the drawn runs near a peak do. How many there are is known but for
-   those of two peaks that have a speed in common.
-3. Every coating has a job for its runs, its map and its ensembles, which starts Python and imports packages.
+2. Repetitions of runs in further jobs (``COSTS`` of `bladerub.plugins`), such as the members of ensembles,
+   cost what the drawn runs near a peak do. How many there are is known but for those of two peaks that have a
+   speed in common.
+3. Every coating has a job for its runs and its map, and these further ones: each starts Python and imports
+   packages.
 
 Not contained are the blade, tables and figures, and what Snakemake itself does.
 """
@@ -20,11 +22,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bladerub import plugins
 from bladerub.blade.model import ReducedBlade
 from bladerub.extras.benchmark.machine import cores as cores_here
 from bladerub.extras.study_runs import StudyRun, study_runs
 from bladerub.io.provenance import provenance
-from bladerub.study.ensemble import expected_cost
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.job import compute
@@ -35,8 +37,8 @@ from bladerub.study.solver import each_done
 from bladerub.study.store import write_run
 
 DRAWN = 128
-_JOBS_OF_A_COATING = ("bladerub.study.job", "bladerub.study.maps", "bladerub.study.ensemble")
-"""What each job of a coating imports: that of its runs, its map and its ensembles."""
+_JOB_OF_RUNS = ("study.job", "study.maps")
+"""What the job of the runs and the map of a coating imports."""
 
 
 class _Cost(NamedTuple):
@@ -64,8 +66,10 @@ def estimate(
     per_run = float(np.mean([cost.run for cost in costs]))
     totals = np.array([cost.run + cost.longer for cost in costs])
     peak_totals = totals[[cost.is_near_a_peak for cost in costs]]
-    members = sum(expected_cost(config, case) for case in coating_cases(config))
-    starts = sum(map(_start, _JOBS_OF_A_COATING)) * len(coating_cases(config))
+    further = plugins.loaded("COSTS").values()
+    members = sum(cost(config, case) for cost in further for case in coating_cases(config))
+    modules = [*_JOB_OF_RUNS, *(place.partition(":")[0] for place in plugins.offered("COSTS").values())]
+    starts = sum(map(_start, modules)) * len(coating_cases(config))
     seconds = (
         len(runs) * totals.mean()
         + members * (peak_totals.mean() if peak_totals.size else totals.mean())
@@ -109,10 +113,10 @@ def _is_near_a_peak(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRu
 
 
 def _start(module: str) -> float:
-    """CPU time of a process that imports `module`, s."""
+    """CPU time of a process that imports `module`, named below `bladerub`, s."""
     import resource  # not on every system, where the study does not run either
 
     usage_before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, "-c", f"import {module}"], check=True)
+    subprocess.run([sys.executable, "-c", f"import bladerub.{module}"], check=True)
     usage_after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage_after.ru_utime + usage_after.ru_stime - usage_before.ru_utime - usage_before.ru_stime

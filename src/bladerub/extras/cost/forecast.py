@@ -87,8 +87,8 @@ def forecast(
             of_coating = counts[coating]
             share = 1 - of_coating["done"] / of_coating["planned"]
             simulated += share * n_blades * costs.runs[coating]
-        elif rule == "ensemble" and coating in counts:
-            simulated += costs.ensembles[coating]
+        elif rule in costs.further:
+            simulated += costs.further[rule].get(coating, 0)
     longer = GROWING * config["analysis"]["divergence"]["confirmation_revolutions"]
     seconds += simulated * (config["solver"]["revolutions"] + longer) * SECONDS_PER_REVOLUTION
     minutes = max(seconds / 60 / (cores or 1), 1)

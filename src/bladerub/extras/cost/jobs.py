@@ -12,7 +12,6 @@ from bladerub.io.errors import DamagedFile
 _log = logging.getLogger(__name__)
 
 STAGES = {"blade": "blade", "compile_kernel": "compilation", "coating": "rubs"}
-STAGES |= {"ensemble": "ensembles"}
 STAGES |= dict.fromkeys(("peaks", "divergence", "findings", "margins"), "tables")
 STAGES |= dict.fromkeys(("histograms", "histories"), "figures")
 """Stage of each rule, in the order of the workflow; rules named after a figure of the paper: ``figures``."""

@@ -1,1 +1,1 @@
-"""One run from many starts, whatever the study makes of its peaks."""
+"""Runs repeated from other starts: one of any kind, and those that the tables of a study rest on."""

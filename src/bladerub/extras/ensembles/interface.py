@@ -14,12 +14,12 @@ from bladerub.api.map import solve_all
 from bladerub.api.notebook import Shown
 from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run, run_of, runs_of
+from bladerub.extras.ensembles.bands import band
+from bladerub.extras.ensembles.ensemble import starts
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.provenance import provenance
 from bladerub.study import run_set
-from bladerub.study.bands import band
-from bladerub.study.ensemble import starts
 from bladerub.study.grid import speed_name
 from bladerub.study.store import StoredRun
 from bladerub.study.summary import spectral_peak
@@ -79,9 +79,9 @@ class Ensemble(Shown, Comparable):
     def bands(self) -> pd.DataFrame:
         """Return a row for each quantity: median, and ``low`` to ``high``, the 90 % band.
 
-        A further start falls between these with that probability (`bladerub.study.bands`). The quantities are
-        ``peak_amplitude``, ``spectral_peak``, ``max_wear`` (m), ``lobes``, ``wear_harmonic`` and
-        ``growth_per_revolution``.
+        A further start falls between these with that probability (`bladerub.extras.ensembles.bands`). The
+        quantities are ``peak_amplitude``, ``spectral_peak``, ``max_wear`` (m), ``lobes``, ``wear_harmonic``
+        and ``growth_per_revolution``.
         """
         table = self.to_pandas()
         return pd.DataFrame({name: band(table[name])._asdict() for name in _BANDED}).T

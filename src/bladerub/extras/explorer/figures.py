@@ -18,7 +18,7 @@ BANDS = [
     *("draws", "divergent_draws", "growth_rate_low", "growth_rate_high", "max_wear_low", "max_wear_high"),
     *("lobes_lowest", "lobes_highest"),
 ]
-"""Columns of ``divergence.csv`` that runs with an ensemble have, and tables of studies with ensembles."""
+"""Columns of ``run_bands.csv``: NaN for runs without an ensemble."""
 
 
 def mm(metres: np.ndarray) -> np.ndarray:

@@ -12,7 +12,6 @@ from bladerub.extras.explorer import figures
 from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, LAST_ORDER, arcs, kept_orders
 from bladerub.io.provenance import software
 from bladerub.plots import bins, spectrum, style, titles
-from bladerub.study.bands import PEAK_COLUMNS
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 from bladerub.study.variants import of_case
@@ -37,11 +36,11 @@ def scales(coating: CoatingMap, max_frequency: float) -> dict[str, Any]:
 
 
 def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[str, Any]:
-    """Name, properties and resonant peaks (``peaks.csv``; amplitude Y in mm) of one coating.
+    """Name, properties and resonant peaks (``peaks.csv``, perhaps with bands; Y in mm) of one coating.
 
     What is missing is NaN: a peak, with its ``reason``, and the band of one without an ensemble.
     """
-    columns = list(dict.fromkeys([*peaks, *PEAK_COLUMNS, "reason"]))
+    columns = list(dict.fromkeys([*peaks, "draws", "amplitude_low", "amplitude_high", "reason"]))
     return {
         "name": case.name,
         "title": titles.coating(case),

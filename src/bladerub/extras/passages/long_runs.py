@@ -13,6 +13,7 @@ import pandas as pd
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
+from bladerub.extras.important_runs import nearest_speed
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
@@ -22,7 +23,6 @@ from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
-from bladerub.study.peaks import nearest_speed
 from bladerub.study.variants import with_variant
 
 COLUMNS = [

@@ -9,8 +9,9 @@ import pandas as pd
 
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
 from bladerub.contact.result import UNBALANCED
+from bladerub.extras.further_columns import with_further
 from bladerub.io import hdf5, tables
-from bladerub.study import bands, divergence, peaks
+from bladerub.study import divergence, peaks
 from bladerub.study.grid import CoatingCase, coating_cases
 from bladerub.study.manifest import read_manifest
 from bladerub.study.maps import CoatingMap, read_map
@@ -21,6 +22,8 @@ STRESS = "last_von_mises"
 """Column of ``stress.csv`` that the page shows, Pa; not every study has the table."""
 
 BLADE = "blade/reduced_model.h5"
+
+_BANDS = ("draws", "amplitude_low", "amplitude_high", "amplitude_error")  # of ``peak_bands.csv``
 
 
 class Results(NamedTuple):
@@ -63,7 +66,9 @@ def read(config: Mapping[str, Any], folder: Path) -> Results:
     """
     f1_hz = float(hdf5.read_attributes(folder / BLADE)["f1_hz"])
     verdicts = tables.read(folder / "tables/divergence.csv", divergence.COLUMNS)
+    verdicts = with_further(verdicts, folder / "tables/run_bands.csv")
     peak_table = tables.read(folder / "tables/peaks.csv", peaks.COLUMNS)
+    peak_table = with_further(peak_table, folder / "tables/peak_bands.csv")
     cases = {case.name: case for case in coating_cases(config)}
     runs = _joined({name: _runs(folder, case, verdicts) for name, case in cases.items()})
     rows = _joined({name: _peaks(folder, case, peak_table, runs) for name, case in cases.items()})
@@ -110,7 +115,7 @@ def _runs(folder: Path, case: CoatingCase, verdicts: pd.DataFrame) -> pd.DataFra
 
 def _peaks(folder: Path, case: CoatingCase, peak_table: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
     """Join the peaks of one coating with the runs at their speeds and, where it is known, the stress."""
-    columns = ["order", "f_peak", "amplitude", *bands.PEAK_COLUMNS, "reason"]
+    columns = ["order", "f_peak", "amplitude", *_BANDS, "reason"]
     rows = of_case(peak_table, case).reindex(columns=columns)
     if rows.empty:
         raise ValueError(f"tables/peaks.csv: has no peak of {case.name}; run snakemake again")

@@ -31,9 +31,9 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel, element_passage
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.contact.steps import STABLE_PART, with_steps
+from bladerub.extras.important_runs import chosen
 from bladerub.extras.study_runs import StudyRun
 from bladerub.extras.verification.differences import Differences, differences, largest
-from bladerub.study.ensemble import chosen
 from bladerub.study.grid import coating_cases, element_law, run_spec
 from bladerub.study.maps import read_map
 from bladerub.study.solver import row_of
@@ -95,7 +95,7 @@ class VerifiedRun:
 
 
 def important_runs(config: Mapping[str, Any], maps: Path) -> list[StudyRun]:
-    """List the runs that tables and claims rest on (`bladerub.study.ensemble.chosen`), by the folder of maps.
+    """List the runs that tables and claims rest on (`chosen`), by the folder of maps.
 
     Raises as `bladerub.study.maps.read_map`.
     """

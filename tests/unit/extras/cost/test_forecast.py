@@ -36,14 +36,14 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(study):
     config["solver"]["revolutions"] = 3600
     jobs = [("blade", None), *JOBS, ("fig11_Y4", None)]
     costs = costs_of(config)
-    runs = 0.6 * sum(costs.runs.values()) + sum(costs.ensembles.values())
+    runs = 0.6 * sum(costs.runs.values()) + sum(costs.further["ensemble"].values())
     longer = GROWING * config["analysis"]["divergence"]["confirmation_revolutions"]
     seconds = (
         runs * (3600 + longer) * SECONDS_PER_REVOLUTION + 8 * SECONDS_PER_JOB + SECONDS_AT_FIRST["blade"]
     )
     numbers = re.findall(r"\d+", forecast(config, jobs).replace(",", ""))
     assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
-    assert costs.ensembles[JOBS[0][1]] > 0
+    assert costs.further["ensemble"][JOBS[0][1]] > 0
 
 
 def test_runs_that_no_job_computes_are_not_announced(study):

@@ -3,8 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bladerub.study import ensemble
-from bladerub.study.ensemble import expected_cost, named
+from bladerub.extras.ensembles import ensemble
+from bladerub.extras.ensembles.ensemble import expected_cost
+from bladerub.extras.important_runs import chosen, named, nearest_speed
 from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.paper import WORN
 
@@ -76,13 +77,24 @@ class TestStarts:
 
 class TestChosen:
     def test_peaks_and_their_neighbours_in_speed(self, study, coating):
-        np.testing.assert_array_equal(ensemble.chosen(study, coating), [0.15, 0.2, 0.25, 0.3, 0.35])
+        np.testing.assert_array_equal(chosen(study, coating), [0.15, 0.2, 0.25, 0.3, 0.35])
 
     def test_runs_whose_displacement_is_kept(self, study, coating):
         study["analysis"]["histories"] = [{"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.1}]
-        assert 0.1 in ensemble.chosen(study, coating)
+        assert 0.1 in chosen(study, coating)
         study["analysis"]["histories"][0]["theta"] = 0.15
-        assert 0.1 not in ensemble.chosen(study, coating)
+        assert 0.1 not in chosen(study, coating)
+
+    def test_without_a_peak_where_the_order_meets_c1(self, study, make_map):
+        unbounded = make_map(CASE, {})
+        unbounded.spectrum_amplitude[(unbounded.f_omega > 0.1) & (unbounded.f_omega < 0.25)] = np.nan
+        settings = study["analysis"]["peaks"]
+        for coating, order, nearest in (
+            (make_map(CASE, {}, [0.05, 0.1, 0.3]), 6, 0.1),
+            (unbounded, 6, 0.17),
+            (make_map(CASE, {}), 2, 0.4),
+        ):
+            assert coating.f_omega[nearest_speed(coating, order, settings)] == nearest
 
 
 class TestMake:

@@ -1,8 +1,8 @@
 """Bands: median and spread of what a study shows, over the draws that its ensembles make.
 
-A *draw of the study* is the study with the runs of one member of each ensemble (`bladerub.study.ensemble`)
-in place of its own; the study itself is the first draw. What a table says of a run or a peak is evaluated on
-each of them.
+A *draw of the study* is the study with the runs of one member of each ensemble
+(`bladerub.extras.ensembles.ensemble`) in place of its own; the study itself is the first draw. What its
+tables say of a run, a peak or a claim is evaluated on each of them.
 
 The band of n draws is the interval in which a further draw falls with probability `PROBABILITY`, if draws are
 distributed normally: ``mean ± t s √(1 + 1/n)``. Here s is their standard deviation, and t the quantile of
@@ -24,13 +24,13 @@ import numpy as np
 import pandas as pd
 import scipy
 
+from bladerub.extras.ensembles.ensemble import Ensemble
 from bladerub.study import divergence, findings, peak_table
-from bladerub.study.ensemble import Ensemble
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
-from bladerub.study.variants import plain
+from bladerub.study.variants import plain, with_variant
 
 PROBABILITY = 0.9
 """Probability of a draw to fall into the band: 5 % lie below and 5 % above it."""
@@ -45,14 +45,15 @@ PEAK_COLUMNS = [
     *(f"{name}_{end}" for name in ("f_peak", "amplitude") for end in _ENDS),
     *("f_peak_error", "amplitude_error"),
 ]
-"""Columns that the bands add to ``peaks.csv``."""
+"""Columns of ``peak_bands.csv`` besides those of ``peaks.csv``."""
 
 RUN_COLUMNS = [
+    *("casing", "E", "K", "theta", "f_omega", "law", "growth_per_revolution"),
     *("draws", "divergent_draws", "saturating_draws"),
     *(f"{name}_{end}" for name in ("growth_rate", "max_wear") for end in _ENDS),
     *("lobes_lowest", "lobes_highest", "max_wear_error"),
 ]
-"""Columns that the bands add to ``divergence.csv``, empty for runs without an ensemble."""
+"""Columns of ``run_bands.csv``: the growth is that of the study's own run, as in ``divergence.csv``."""
 
 
 class Band(NamedTuple):
@@ -126,15 +127,10 @@ def of_peaks(
 def of_runs(
     config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
 ) -> pd.DataFrame:
-    """Judge every run, as `bladerub.study.divergence.table`, with `RUN_COLUMNS` and ``modulus_unit``."""
-    table, coatings = divergence.table(config, maps), {coating.case: coating for coating in maps}
+    """Find the bands of each run that has an ensemble: a row each, with `RUN_COLUMNS`, see `with_variant`."""
+    coatings = {coating.case: coating for coating in maps}
     rows = [row for ensemble in ensembles for row in _run_bands(config, coatings, ensemble)]
-    if rows:
-        keys = _keys(table)
-        table = table.merge(pd.DataFrame(rows)[[*keys, *RUN_COLUMNS]], "left", on=keys)
-    else:
-        table = table.reindex(columns=[*table, *RUN_COLUMNS])
-    return table.assign(modulus_unit=modulus_unit(config))
+    return with_variant(pd.DataFrame(rows), RUN_COLUMNS)
 
 
 def _run_bands(
@@ -154,6 +150,7 @@ def _run_bands(
         yield {
             **vars(coating.case),
             "f_omega": coating.f_omega[places[index]],
+            "growth_per_revolution": drawn[0].growth.per_revolution,
             "draws": len(drawn),
             "divergent_draws": np.mean([verdict.divergent for verdict in drawn]),
             "saturating_draws": np.mean([verdict.saturating for verdict in drawn]),
@@ -172,10 +169,10 @@ def of_findings(
     maps: Sequence[CoatingMap],
     ensembles: Sequence[Ensemble],
 ) -> pd.DataFrame:
-    """Add ``draws``, ``share_of_draws`` and ``holds_refined`` to the `table` of findings.
+    """Judge every claim of the `table` of findings on each draw, with columns as of ``claim_draws.csv``.
 
-    These are the draws that have its verdict, and the verdict with refined runs. Every claim of the table is
-    judged on each draw but the first, the study itself, which would agree with itself.
+    ``draws`` are all but the first, the study itself, which would agree with itself; ``share_of_draws`` is
+    that of the draws with its verdict, and ``holds_refined`` the verdict with refined runs.
     """
     claims = [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
     runs = plain(divergence.table(config, maps))
@@ -191,7 +188,7 @@ def of_findings(
         for member, drawn in enumerate(islice(draws(maps, ensembles), 1, None))
     ]
     finer = [ensemble.refined for ensemble in ensembles]
-    return table.assign(
+    return table[["id", "holds"]].assign(
         draws=len(agreements),
         share_of_draws=np.mean(agreements, axis=0) if agreements else math.nan,
         holds_refined=verdicts(refined(maps, ensembles), finer) if finer else "",

@@ -5,10 +5,13 @@ import pandas as pd
 import pytest
 from scipy import stats
 
-from bladerub.io.tables import described_columns
-from bladerub.study import bands, divergence, findings, peak_table
-from bladerub.study.bands import band
-from bladerub.study.ensemble import Ensemble
+from bladerub.extras.ensembles import bands
+from bladerub.extras.ensembles.bands import band
+from bladerub.extras.ensembles.ensemble import Ensemble
+from bladerub.extras.ensembles.figure import peak_bands
+from bladerub.extras.further_columns import with_further
+from bladerub.io import tables
+from bladerub.study import divergence, findings, peak_table
 from bladerub.study.grid import CoatingCase
 
 CASE, OTHER = CoatingCase("2nd", 1.1, 0.5, 0.0), CoatingCase("2nd", 2.0, 0.5, 0.0)
@@ -69,19 +72,17 @@ def test_peaks_have_the_band_of_all_draws(config, maps, ensembles):
     assert of_six.draws == 4
     assert of_six[["amplitude_median", "amplitude_low", "amplitude_high"]].tolist() == pytest.approx(expected)
     assert (of_six.f_peak_median, of_six.f_peak_error) == (0.2, 0)
+    assert table[table.E == 2].amplitude_error.isna().all()  # without an ensemble
     assert of_six.f_peak_high > 0.22
     assert of_six.amplitude_error == pytest.approx(4e-6, rel=1e-3)
     assert of_four.amplitude_low == pytest.approx(of_four.amplitude_high) == pytest.approx(2e-4)
-    assert table[table.E == 2].amplitude_error.isna().all()  # without an ensemble
-    assert set(table.columns) <= described_columns().keys()
 
 
-def test_runs_with_an_ensemble_have_bands_and_others_none(config, maps, ensembles):
+def test_runs_with_an_ensemble_have_bands(config, maps, ensembles):
     config["analysis"]["divergence"]["confirmation_revolutions"] = 0
     table = bands.of_runs(config, maps, ensembles)
-    assert len(table) == 14
-    pd.testing.assert_frame_equal(table[divergence.COLUMNS], divergence.table(config, maps))
-    found = table.dropna(subset=["draws"]).set_index("f_omega")
+    assert list(table.columns) == bands.RUN_COLUMNS
+    found = table.set_index("f_omega")
     assert list(found.index) == [0.15, 0.2, 0.22]
     assert list(found.E.unique()) == [1.1]
     assert list(found.divergent_draws) == [0, 0.25, 0]
@@ -90,7 +91,18 @@ def test_runs_with_an_ensemble_have_bands_and_others_none(config, maps, ensemble
     assert found.max_wear_median[0.2] == pytest.approx(
         0.5 * np.median([5e-4, 4.5e-4, 6.5e-4, 1.1e-4]), rel=0.1
     )
-    assert set(table.columns) <= described_columns().keys()
+
+
+def test_bands_stand_beside_the_numbers_that_they_are_of(config, maps, ensembles, tmp_path):
+    runs, beside = tmp_path / "divergence.csv", tmp_path / "run_bands.csv"
+    divergence.table(config, maps).to_csv(runs, index=False)
+    assert with_further(tables.read(runs), beside).equals(tables.read(runs))
+    bands.of_runs(config, maps, ensembles).to_csv(beside, index=False)
+    joined = with_further(tables.read(runs), beside)
+    pd.testing.assert_frame_equal(joined[divergence.COLUMNS], tables.read(runs))
+    assert list(joined.dropna(subset=["draws"]).f_omega) == [0.15, 0.2, 0.22]
+    later = tables.read(runs).assign(growth_per_revolution=0.5)  # of a blade since changed
+    assert with_further(later, beside).draws.isna().all()
 
 
 def test_a_verdict_has_the_share_of_draws_that_agree(config, maps, ensembles, monkeypatch):
@@ -110,3 +122,15 @@ def test_a_verdict_has_the_share_of_draws_that_agree(config, maps, ensembles, mo
     assert list(found.holds_refined.fillna("left out")) == ["yes", "no", "left out"]
     assert list(found.share_of_draws) == pytest.approx([1, 2 / 3, 0])
     assert list(found.draws) == [3, 3, 3]
+
+
+def test_half_a_band_stands_below_the_value_where_it_shows(draws):
+    peaks = pd.DataFrame({"E": [1.1, 2.0, 1.1, 2.0], "K": 0.5, "order": [4, 4, 6, 6], "f_peak": 0.3})
+    peaks = peaks.assign(amplitude=2e-3, f_peak_low=0.291, f_peak_high=0.309)
+    peaks = peaks.assign(amplitude_low=[1.999e-3, 1.5e-3, np.nan, 1.81e-3])
+    peaks = peaks.assign(amplitude_high=[2.001e-3, 2.5e-3, np.nan, 2.19e-3])
+    axes = draws(peak_bands(peaks, 600e6)).axes
+    speeds = ["0.300\n±0.009", "0.300\n±0.009"]
+    texts = [[text.get_text() for text in panel.texts] for panel in axes[:4]]
+    assert texts == [["2.00", "2.00\n±0.50"], speeds, ["2.00", "2.00\n±0.19"], speeds]
+    assert [len(panel.patches) for panel in axes[:4]] == [1, 0, 0, 0]

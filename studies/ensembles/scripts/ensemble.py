@@ -7,7 +7,7 @@ job.log_to(snakemake.log[0])
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.study import ensemble
+from bladerub.extras.ensembles import ensemble
 from bladerub.study.cache import blade_digest
 from bladerub.study.maps import read_map
 from bladerub.workflow.progress import of_job

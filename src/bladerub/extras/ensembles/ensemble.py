@@ -6,9 +6,8 @@
 2. A member starts at rest with a radial displacement of node 1, in the first mode, that is drawn evenly from
    ± ``ensemble.displacement``. The draws of a run depend on ``ensemble.seed``, the coating and the speed, and
    on nothing else: more members leave those that are there as they are.
-3. The runs with an ensemble are those that tables and claims rest on (`chosen`): the peaks of each coating,
-   or where its orders meet C1 if it has none, with their neighbours in speed, the runs whose displacement is
-   kept, and those of the claims on lobes.
+3. The runs with an ensemble are those that tables and claims rest on
+   (`bladerub.extras.important_runs.chosen`).
 4. Each of them is repeated from its own start with a quarter of the tolerance, which is half the step
    (`bladerub.contact.steps`): what changes is three quarters of the error that the step of the run makes.
 5. Members are stored, found again and followed further when they grow as the runs of the study are
@@ -25,19 +24,19 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
+from bladerub.extras.important_runs import chosen, named
 from bladerub.io import hdf5
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study import maps
-from bladerub.study.grid import SAME_SPEED, CoatingCase, between, keeps_history, run_spec, speed_name, speeds
+from bladerub.study.grid import SAME_SPEED, CoatingCase, run_spec, speed_name, speeds
 from bladerub.study.job import RunDone, compute_missing
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
-from bladerub.study.orders import peak_orders, peak_settings
-from bladerub.study.paper import LOBES, WORN
-from bladerub.study.peaks import nearest_speed
+from bladerub.study.orders import peak_orders
+from bladerub.study.paper import WORN
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import row_of
 
@@ -91,17 +90,6 @@ def starts(settings: Mapping[str, Any], case: CoatingCase, f_omega: float, membe
     return np.random.default_rng(entropy).uniform(-limit, limit, members)
 
 
-def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
-    """Choose the speeds (n,) of a coating that have an ensemble, ascending, normalised."""
-    f_omega = coating.f_omega
-    mask = named(config, coating.case, f_omega)
-    settings = peak_settings(config, coating.case.casing)
-    for order in settings["orders"]:
-        index = nearest_speed(coating, order, settings)
-        mask[max(index - 1, 0) : index + 2] = True
-    return f_omega[mask]
-
-
 def expected_cost(config: Mapping[str, Any], case: CoatingCase) -> int:
     """Count the members of a coating before its peaks are known, as if no two were next to each other.
 
@@ -111,15 +99,6 @@ def expected_cost(config: Mapping[str, Any], case: CoatingCase) -> int:
         return 0
     by_name = int(named(config, case, np.array(speeds(config))).sum()) * (FOLLOWED if case == WORN else 1)
     return (config["ensemble"]["members"] + REFINED) * (by_name + 3 * len(peak_orders(config, case.casing)))
-
-
-def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
-    """Which (n,) of the speeds `f_omega` have an ensemble wherever the peaks are: by history or claim."""
-    mask = np.array([keeps_history(config, case, float(f)) for f in f_omega])
-    if case == WORN:
-        for low, high in LOBES:
-            mask |= between(f_omega, low, high)
-    return mask
 
 
 def refined(spec: RunSpec) -> RunSpec:

@@ -1,0 +1,46 @@
+"""The runs that tables and claims rest on, which are worth repetitions and a check of their error."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from bladerub.study.grid import CoatingCase, between, keeps_history
+from bladerub.study.maps import CoatingMap
+from bladerub.study.orders import peak_settings
+from bladerub.study.paper import FIVE_LOBES, FOUR_LOBES, NEAR, TEN_LOBES, WORN
+from bladerub.study.peaks import Response, peak
+
+LOBES = (*FIVE_LOBES, *((f_omega - NEAR, f_omega + NEAR) for f_omega in (TEN_LOBES, FOUR_LOBES)))
+"""Speeds between which the claims on worn lobes look."""
+
+
+def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
+    """Choose such speeds (n,) of a coating, ascending, normalised.
+
+    They are its peaks, or where its orders meet C1 if it has none, with their neighbours in speed, and those
+    that are `named`.
+    """
+    f_omega = coating.f_omega
+    mask = named(config, coating.case, f_omega)
+    settings = peak_settings(config, coating.case.casing)
+    for order in settings["orders"]:
+        index = nearest_speed(coating, order, settings)
+        mask[max(index - 1, 0) : index + 2] = True
+    return f_omega[mask]
+
+
+def nearest_speed(coating: Response, order: float, settings: Mapping[str, Any]) -> int:
+    """Return the place among the speeds of the peak or, where there is none, of where the order meets C1."""
+    f_peak = peak(coating, order, settings).f_omega
+    distance = order * coating.f_omega - coating.C1 if np.isnan(f_peak) else coating.f_omega - f_peak
+    return int(np.argmin(np.abs(distance)))
+
+
+def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
+    """Which (n,) of the speeds `f_omega` count wherever the peaks are: by history or the claims on lobes."""
+    mask = np.array([keeps_history(config, case, float(f)) for f in f_omega])
+    if case == WORN:
+        for low, high in LOBES:
+            mask |= between(f_omega, low, high)
+    return mask

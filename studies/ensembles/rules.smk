@@ -1,0 +1,118 @@
+# The runs at the peaks, and those that claims name, repeated from slightly different starts: the bands of peaks, runs
+# and verdicts. Part of `all` unless the config wants no members.
+from bladerub.workflow.cores import BEGUN
+
+ENSEMBLE = f"{RESULTS}/ensembles/{{coating}}.h5"
+MEMBERS = f"{RESULTS}/runs/{{coating}}/ensemble/manifest.tsv"
+
+
+def ensemble_threads(wildcards):
+    return share_of_cores(job_costs().further["ensemble"][wildcards.coating])
+
+
+rule ensemble:
+    # The members are next to their manifest, undeclared, as the runs of a coating are
+    input:
+        replaces(workflow, ENSEMBLE, damage),
+        replaces(workflow, MEMBERS),
+        map=rules.coating.output.map,
+        blade=rules.blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        analysing=files_behind("extras.ensembles.ensemble", "study.maps"),
+    output:
+        ENSEMBLE,
+        members=MEMBERS,
+    log:
+        f"{RESULTS}/logs/ensemble/{{coating}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/ensemble/{{coating}}.tsv"
+    priority: BEGUN  # the longest job of the study is one of these
+    group:
+        "rubs"
+    threads: ensemble_threads
+    resources:
+        mem_mb=memory_mb,
+        runtime=coating_minutes,
+    params:
+        folder=f"{RESULTS}/runs/{{coating}}",
+        ensemble=config["ensemble"],
+        peaks=PEAKS,
+        divergence=config["analysis"]["divergence"],
+    script:
+        "scripts/ensemble.py"
+
+
+ENSEMBLES = expand(rules.ensemble.output[0], coating=COATINGS)
+
+
+rule bands:
+    input:
+        maps=expand(rules.coating.output.map, coating=COATINGS),
+        ensembles=ENSEMBLES,
+        analysing=files_behind("extras.ensembles.bands", "study.findings"),
+    output:
+        **described(
+            peaks=f"{TABLES}/peak_bands.csv",
+            runs=f"{TABLES}/run_bands.csv",
+        ),
+    log:
+        f"{RESULTS}/logs/bands.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/bands.tsv"
+    group:
+        "drawing"
+    params:
+        peaks=PEAKS,
+        divergence=config["analysis"]["divergence"],
+    script:
+        "scripts/bands.py"
+
+
+rule claim_draws:
+    input:
+        maps=rules.bands.input.maps,
+        ensembles=ENSEMBLES,
+        findings=rules.findings.output[0],
+        rom_accuracy=rules.blade_tables.output.rom_accuracy,
+        analysing=rules.bands.input.analysing,
+    output:
+        **described(table=f"{TABLES}/claim_draws.csv"),
+    log:
+        f"{RESULTS}/logs/claim_draws.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/claim_draws.tsv"
+    group:
+        "drawing"
+    script:
+        "scripts/claim_draws.py"
+
+
+rule peak_bands:
+    input:
+        peaks=rules.bands.output.peaks,
+        drawing=files_behind("extras.ensembles.figure", "plots.histogram"),
+    output:
+        **drawn("peak_bands", "Moduli of the coating"),
+    log:
+        f"{RESULTS}/logs/peak_bands.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/peak_bands.tsv"
+    group:
+        "drawing"
+    params:
+        dpi=DPI,
+        coatings=MODULI,
+        modulus_unit=modulus_unit(config),
+    script:
+        "scripts/peak_bands.py"
+
+
+if config["ensemble"]["members"]:
+    # the tables need the members, but Snakemake replaces no lost one for an ensemble that is there
+    LISTED_MEMBERS = expand(rules.ensemble.output.members, coating=COATINGS)
+    ADDED_TO_ALL["ensemble"] = ENSEMBLES + LISTED_MEMBERS
+    ADDED_TO_ALL["bands"] = rules.bands.output
+    if JUDGED:
+        ADDED_TO_ALL["claim_draws"] = rules.claim_draws.output
+    if WITH_MODULI:
+        ADDED_TO_ALL["peak_bands"] = rules.peak_bands.output

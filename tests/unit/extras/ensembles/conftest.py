@@ -1,0 +1,1 @@
+from plot_fixtures import draws  # noqa: F401 (fixtures)
