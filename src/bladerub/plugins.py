@@ -19,6 +19,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``ROWS``        what computes rows of blades, by the key of the config that describes them
 ``DATASETS``    what a run file may hold besides that of a single blade: a dictionary as of the store
 ``SOLVERS``     what computes runs instead of the processor, by the name in ``solver.device``
+``COATINGS``    functions of a config that list coatings which are run on request besides its own
 ``COSTS``       what further jobs of a coating cost: functions of config and coating that return a number of
                 runs at its speeds, by the name of the rule (`bladerub.workflow.cores`)
 ``SECTIONS``    keys of the config by their path, such as ``blade.source``, each with its type: a model

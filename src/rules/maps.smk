@@ -1,7 +1,4 @@
 # Stage 3: the tables over all coatings.
-import csv
-import os
-
 from bladerub.study.orders import peak_orders, used_casings
 
 # What decides the table of the peaks: the orders of a casing of its own, if it has any, besides those of all
@@ -50,18 +47,6 @@ rule divergence:
         "../scripts/divergence.py"
 
 
-def reported_robustness(wildcards):
-    """Reference and share of each claim, if `snakemake robustness` was run: the study does not wait for it."""
-    path = f"{TABLES}/robustness.csv"
-    if not os.path.exists(path):
-        return {}
-    with open(path, encoding="utf-8", newline="") as lines:
-        return {
-            row["id"]: (row["reference"], float(row["yes_share"] or "nan"))
-            for row in csv.DictReader(lines)
-        }
-
-
 rule findings:
     input:
         maps=expand(rules.coating.output.map, coating=COATINGS),
@@ -77,8 +62,6 @@ rule findings:
         f"{RESULTS}/benchmarks/findings.tsv"
     group:
         "drawing"
-    params:
-        robustness=reported_robustness,
     script:
         "../scripts/findings.py"
 

@@ -39,7 +39,7 @@ def share_of_cores(cost):
 
 
 def coating_threads(wildcards):
-    # also a coating that only `friction` asks for
+    # also one that is run on request
     return share_of_cores(job_costs().runs.get(wildcards.coating, len(speeds(config))))
 
 

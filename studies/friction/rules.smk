@@ -1,7 +1,7 @@
 # Coulomb friction compared with a contact force of constant direction, on the coatings listed for it. Not part of `all`.
-from bladerub.study.grid import compared_cases
+from bladerub.extras.friction.coatings import compared
 
-COMPARED = [case.name for pair in compared_cases(config) for case in pair]
+COMPARED = [case.name for case in compared(config)]
 
 
 rule friction:

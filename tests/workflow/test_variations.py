@@ -83,16 +83,6 @@ def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(planned, tiny
     assert (planned.results / "figures" / "robustness.png").stat().st_size > 10_000
 
     assert planned.plan(tiny, "robustness") == {}
-    assert read(planned, "findings").robustness.isna().all()
-    anew = planned.plan(tiny)
-    assert "findings" in anew
-    assert not {"coating", "map", "variation"} & anew.keys()
-    planned.build(tiny)
-    reported = read(planned, "findings").set_index("id")
-    alike = reported.holds[table.index] == table.reference
-    assert alike.any()
-    assert (reported.robustness[table.index][alike] == table.yes_share[alike]).all()
-    assert reported.robustness.drop(table.index[alike]).isna().all()
     assert planned.plan(tiny) == {}
 
     tiny["figures"] = {"dpi": 90}

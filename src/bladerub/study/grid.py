@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from bladerub import plugins
 from bladerub.contact.laws import described_law, parameters_of
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec, TipProfile
 from bladerub.io.folders import study_folder
@@ -132,18 +133,13 @@ def listed_case(entry: Mapping[str, Any]) -> CoatingCase:
     return case.with_own(**{key: entry[key] for key in OWN if key in entry})
 
 
-def compared_cases(config: Mapping[str, Any]) -> list[tuple[CoatingCase, CoatingCase]]:
-    """List the coatings that are run by both laws of friction: constant direction first, then Coulomb's."""
-    return [
-        (CoatingCase(entry["casing"], *values), CoatingCase(entry["casing"], *values, law="coulomb"))
-        for entry in config.get("friction", [])
-        for values in itertools.product(*(map(float, entry[key]) for key in ("E", "K", "theta")))
-    ]
-
-
 def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
-    """Find the coating called `name` in `coating_cases` or `compared_cases`; `ValueError` if none is."""
-    for case in itertools.chain(coating_cases(config), *compared_cases(config)):
+    """Find the coating called `name` among those of the study and those that plug in (``COATINGS``).
+
+    Raises `ValueError` if none is.
+    """
+    further = (coatings(config) for coatings in plugins.loaded("COATINGS").values())
+    for case in itertools.chain(coating_cases(config), *further):
         if case.name == name:
             return case
     raise ValueError(f"coating {name} is not in the config; add it to coatings")

@@ -90,14 +90,6 @@ def test_friction_instead_of_theta_is_coulombs_law_at_its_angle(config):
     assert grid.CoatingCase.described(dataclasses.asdict(case)) == case
 
 
-def test_compared_coatings_are_found_by_name_and_are_no_part_of_the_study(config):
-    config["friction"] = [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.15, 0.3]}]
-    pairs = grid.compared_cases(config)
-    assert [case.name for case in pairs[0]] == ["2nd_E3_K0.5_theta0.15", "2nd_E3_K0.5_mu0.151135"]
-    assert pairs[1][1] == grid.case_from_name(config, pairs[1][1].name)
-    assert not {case for pair in pairs for case in pair} & set(grid.coating_cases(config))
-
-
 @pytest.fixture
 def with_law(config, monkeypatch, tmp_path):
     """Make a config with a law, in a folder of its own."""
