@@ -49,6 +49,10 @@ def contains(path, text):
     return lambda: path.is_file() and text in path.read_text()
 
 
+def waits(log):
+    return contains(log, "another job is at work in")
+
+
 def has_waiters(path, number):
     """Whether that many processes wait for the lock file `path`."""
     waiting = f":{path.stat().st_ino} "
@@ -58,19 +62,18 @@ def has_waiters(path, number):
 
 @pytest.fixture
 def begun(copied_study, tiny):
-    """A study of which one coating is to be done again."""
+    """A study of which one coating is to be done again, and the log of its job."""
     (copied_study.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
     coating = copied_study.results / "runs" / COATING
     (coating / "manifest.tsv").unlink()
-    return copied_study, coating
+    return copied_study, coating, copied_study.results / "logs" / "coating" / f"{COATING}.log"
 
 
 def test_the_second_in_a_folder_is_kept_out_and_loses_nothing(begun, begin, tiny):
-    study, coating = begun
-    log = study.results / "logs" / "coating" / f"{COATING}.log"
+    study, coating, log = begun
     with lock.held(coating / ".lock", lambda: None):  # so that the first stays at work
         first = begin(study.folder)
-        wait_until(contains(log, "another job is at work in"), first)
+        wait_until(waits(log), first)
         second = study.snakemake(*COMMAND[1:])
         assert second.returncode != 0
         assert "another snakemake is at work in this folder" in second.stderr
@@ -83,7 +86,7 @@ def test_the_second_in_a_folder_is_kept_out_and_loses_nothing(begun, begin, tiny
 
 
 def test_two_folders_with_the_same_results_compute_each_run_once(begun, begin, tmp_path):
-    study, coating = begun
+    study, coating, _ = begun
     for speed in (0.1970, 0.2300):
         (coating / f"{speed:.4f}.h5").unlink()
     other = type(study).at(tmp_path / "other")
@@ -102,18 +105,17 @@ def test_two_folders_with_the_same_results_compute_each_run_once(begun, begin, t
 
 
 def test_a_job_that_outlives_its_snakemake_is_waited_for(begun, begin):
-    study, coating = begun
-    log = study.results / "logs" / "coating" / f"{COATING}.log"
+    study, coating, log = begun
     runs = study.runs()
     with lock.held(coating / ".lock", lambda: None):
         first = begin(study.folder)
-        wait_until(contains(log, "another job is at work in"), first)
+        wait_until(waits(log), first)
         first.kill()
         first.wait()
         second = begin(study.folder)
         log.unlink()
         wait_until(contains(study.folder / "output.txt", "the last snakemake here was killed"), second)
-        wait_until(contains(log, "another job is at work in"), second)
+        wait_until(waits(log), second)
         assert second.poll() is None
     assert second.wait(300) == 0
     assert study.runs() == runs

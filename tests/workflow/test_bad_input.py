@@ -4,9 +4,8 @@ One of a kind; tests/unit/config tries the rules of the config, tests/unit/blade
 """
 
 import os
-from dataclasses import MISSING, fields
+import re
 from itertools import pairwise
-from typing import get_type_hints
 
 import h5py
 import numpy as np
@@ -25,7 +24,7 @@ COMMANDS = {
     f"{RUN} --config pipe": "pipe: is not a regular file, must be a YAML file",
     f"{RUN} --output text/run.h5": "--output text/run.h5: cannot be written, ",
     f"{RUN} --blade /dev/zero": "/dev/zero: is not a regular file, must be a reduced blade (HDF5)",
-    f"{RUN} --blade truncated.h5": "truncated.h5: not a readable HDF5 file",
+    f"{RUN} --blade text": "text: not a readable HDF5 file",
     f"{RUN} --blade other.h5": "other.h5: not a reduced blade, 'mass' is missing",
     f"{RUN} --blade endless.h5": "endless.h5: not a reduced blade, mass has the shape (200000, 200000)",
     "verify --sample 1": "the following arguments are required: --seed",
@@ -43,15 +42,9 @@ def folder(tmp_path_factory):
         "coatings: [{casing: 2nd, coating: rigid, friction: [0]}]\nanalysis: {histories: []}\n"
     )
     os.mkfifo(folder / "pipe")
-    kinds = {float: 1.0, int: 6, np.ndarray: np.eye(24)}
-    types = get_type_hints(ReducedBlade)  # without what datasets are described by
-    values = {
-        field.name: kinds[types[field.name]] for field in fields(ReducedBlade) if field.default is MISSING
-    }
-    nodes = dict.fromkeys(("node_position", "radial_direction", "tangential_direction"), np.eye(8, 3))
     sound = folder / "sound.h5"
-    write_reduced_blade(sound, ReducedBlade(**values | nodes | {"f_omega_max": 0.4}), {})
-    (folder / "truncated.h5").write_bytes(sound.read_bytes()[:3000])
+    matrices, nodes = 4 * [np.eye(24)], 3 * [np.eye(8, 3)]
+    write_reduced_blade(sound, ReducedBlade(*matrices, *nodes, 1.0, 0.4, 6, 1e-5, 0.2), {})
     for name in ("other", "endless"):
         (folder / f"{name}.h5").write_bytes(sound.read_bytes())
         with h5py.File(folder / f"{name}.h5", "r+") as file:
@@ -77,7 +70,7 @@ def test_bad_command_line(folder, monkeypatch, capsys, line):
 
 
 def lines_of_ours(stderr):
-    """Snakemake says that it uses a profile and lays one config over the other; all else must be ours."""
+    """All but what Snakemake says of its profile and of configs that lie over one another."""
     its_own = ("Config file config/config.yaml is extended", "Using workflow specific profile")
     return [line for line in stderr.splitlines() if not line.startswith(its_own)]
 
@@ -106,11 +99,8 @@ def test_all_problems_are_reported_at_once_with_their_locations(workspace):
     (workspace.folder / "mine.yaml").write_text("\nblade:\n  length: 200\n")
     files, values = ("config/quick.yaml", "mine.yaml"), ("coating=[]", "figures={dpi: 2}")
     done = workspace.snakemake("--cores", "1", "--configfile", *files, "--config", *values)
-    assert [line.split("=")[0] for line in lines_of_ours(done.stderr)] == [
-        "mine.yaml:3: blade.length ",
-        "--config: coating ",
-        "--config: figures.dpi ",
-    ]
+    culprits = [line.split(" =")[0] for line in lines_of_ours(done.stderr)]
+    assert culprits == ["mine.yaml:3: blade.length", "--config: coating", "--config: figures.dpi"]
     assert done.returncode == 2
 
 
@@ -127,6 +117,4 @@ def test_files_lie_over_one_another_and_the_command_line_over_all(workspace, tin
     done = workspace.snakemake("--dry-run", "--configfile", *files, "--config", *values)
     assert done.returncode == 0, done.stderr
     assert "said/maps/2nd_E2_K0.5_theta0.15.h5" in done.stdout
-    assert "2nd5nd" not in done.stdout
-    assert "own/" not in done.stdout
-    assert "base/" not in done.stdout
+    assert not re.search("2nd5nd|own/|base/", done.stdout)

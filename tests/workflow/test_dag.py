@@ -15,12 +15,6 @@ TABLES = {"peaks": 1, "divergence": 1, "findings": 1, "margins": 1}
 HISTOGRAMS = {"histograms": 1}
 
 
-@pytest.fixture
-def with_E3(tiny):
-    tiny["coatings"][2]["E"].append(3)
-    return tiny
-
-
 def test_a_commit_plans_nothing(copied_study, tiny):
     copied_study.use_own_sources()  # whose state git is to tell
     git = ["git", "-c", "user.name=t", "-c", "user.email=t@t", "-c", "commit.gpgsign=false"]
@@ -51,23 +45,16 @@ def test_a_blade_that_snakemake_has_no_record_of_is_made_anew_for_another_config
     assert copied_study.plan(tiny)["blade"] == 1
 
 
-def test_a_new_coating_plans_itself_and_what_draws_from_it(study, with_E3):
+def test_a_new_coating_plans_itself_and_what_draws_from_it(study, tiny):
+    tiny["coatings"][2]["E"].append(3)
     new = {"coating": 2}  # with both theta
-    assert study.plan(with_E3) == new | TABLES | HISTOGRAMS | {"explorer": 1, "cost": 1, "all": 1}
+    assert study.plan(tiny) == new | TABLES | HISTOGRAMS | {"explorer": 1, "cost": 1, "all": 1}
 
 
 def test_the_scale_of_spectra_plans_what_shows_them(study, tiny):
     plan = study.plan(tiny | {"figures": {"amplitude_range": [1.0e-6, 1.0e-3]}})
     spectra = {"fig07", "fig08", "fig09", "fig10", "fig15", "fig16"}
-    assert {name[:5] for name in plan if name.startswith("fig")} == spectra
-    assert {name for name in plan if not name.startswith("fig")} == {"explorer", "cost", "all"}
-
-
-def test_peak_search_plans_no_map(study, tiny):
-    tiny["analysis"]["peaks"] = {"speed_window": [0.9, 1.2]}
-    plan = study.plan(tiny)
-    others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "explorer": 1, "cost": 1, "all": 1}
-    assert plan == others | HISTOGRAMS
+    assert {name[:5] for name in plan} == spectra | {"explo", "cost", "all"}
 
 
 def test_a_casing_plans_only_its_coatings(study, tiny):
@@ -84,11 +71,15 @@ def test_an_edit_of_the_solver_plans_every_coating(copied_study, tiny):
     assert "blade" not in plan
 
 
-def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny):
-    copied_study.edit("study/peaks.py", '"""', '"""In short: ')
+@pytest.mark.parametrize("of", ["sources", "config"])
+def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny, of):
+    if of == "sources":
+        copied_study.edit("study/peaks.py", '"""', '"""In short: ')
+    else:
+        tiny["analysis"]["peaks"] = {"speed_window": [0.9, 1.2]}
     plan = copied_study.plan(tiny)
-    others = {"margins": 1, "fig10_peaks": 1, "explorer": 1, "cost": 1, "all": 1}
-    assert plan == others | TABLES | HISTOGRAMS  # ensembles are at the peaks, so that growth has other bands
+    others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "explorer": 1, "cost": 1, "all": 1}
+    assert plan == others | HISTOGRAMS
 
 
 def test_runs_that_take_longest_come_first(workspace, tiny):
@@ -96,15 +87,6 @@ def test_runs_that_take_longest_come_first(workspace, tiny):
     found = re.findall(r"rule coating:.*?coating=(\S+)\s+priority: (\S+)", done.stdout, re.DOTALL)
     priority = {coating: float(number) for coating, number in found}
     assert max(priority, key=priority.get) == "2nd_rigid_mu0", priority
-
-
-def test_a_new_coating_computes_itself_alone(copied_study, with_E3):
-    before = copied_study.runs()
-    copied_study.build(with_E3, "results/tables/peaks.csv")
-    after = copied_study.runs()
-    assert {name: after[name] for name in before} == before
-    new = {name.split("/")[0] for name in after.keys() - before.keys()}
-    assert new == {"2nd_E3_K0.5_theta0", "2nd_E3_K0.5_theta0.15"}
 
 
 def test_a_dry_run_changes_nothing(copied_study, tiny):
@@ -120,11 +102,7 @@ def test_a_dry_run_changes_nothing(copied_study, tiny):
 
     def tree():
         paths = set(copied_study.folder.rglob("*")) - {*copied_study.folder.glob(".snakemake/iocache/*")}
-        status = {path: path.lstat() for path in paths}
-        return {
-            path: (about.st_ino, about.st_mtime_ns, path.read_bytes() if path.is_file() else None)
-            for path, about in status.items()
-        }
+        return {path: (path.lstat().st_ino, path.lstat().st_mtime_ns) for path in paths}
 
     (copied_study.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
     before = tree()
@@ -194,10 +172,3 @@ def test_quick_study_can_draw_every_figure(workspace):
 def test_the_calibration_is_planned_when_asked_for(workspace, tiny):
     plan = workspace.plan(tiny, "calibration")
     assert plan.keys() == {"compile_kernel", "variation", "calibration"}
-    (workspace.folder / "config" / "calibration.yaml").write_text(
-        "sets: {odd: {contact: {damping_ratio: 2}}}\n"
-    )
-    done = workspace.snakemake("calibration", "--dry-run", config=tiny)
-    assert done.returncode != 0
-    assert "odd: contact.damping_ratio = 2" in done.stderr
-    assert "Traceback" not in done.stderr

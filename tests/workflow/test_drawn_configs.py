@@ -1,6 +1,5 @@
 """Whatever config passes the checks, all of its study can be planned."""
 
-import json
 from contextlib import suppress
 
 import pytest
@@ -15,41 +14,33 @@ from bladerub.io.errors import BadInput
 from bladerub.io.folders import ROOT
 
 STUDY = ROOT / "config" / "config.yaml"
-SCHEMA = json.loads((ROOT / "config" / "schema.json").read_text(encoding="utf-8"))
 COUNTERS = st.lists(st.integers(1, 24), min_size=1, max_size=3, unique=True)
 THREE_LOBES = {"casings": {"2nd": {"nodal_diameters": [3]}}}
-HIGH_SPEEDS = {
-    "speeds": {"start": 0.3, "stop": 0.8, "step": 0.1, "extra": []},
-    "reduction": {"f_omega_max": 0.8},
-}
-LOW_SPEEDS = {
-    "speeds": {"start": 0.05, "stop": 0.12, "step": 0.01, "extra": []},
-    "reduction": {"f_omega_max": 0.15},
-}
+HIGH_SPEEDS = {"speeds": {"start": 0.3, "stop": 0.8, "step": 0.1}, "reduction": {"f_omega_max": 0.8}}
+LOW_SPEEDS = {"speeds": {"start": 0.05, "stop": 0.12, "step": 0.01}, "reduction": {"f_omega_max": 0.15}}
+HIGH_SPEEDS["speeds"]["extra"] = LOW_SPEEDS["speeds"]["extra"] = []
 
 
-def numbers(rule, value, path=()):
-    """Yield the path and the bounds of each number of the config, with the number itself."""
-    for name, inner in rule.get("properties", {}).items():
-        if isinstance(value, dict) and name in value:
-            yield from numbers(inner, value[name], (*path, name))
-    for kind in rule.get("anyOf", [rule]):
-        if kind.get("type") in ("number", "integer") and isinstance(value, int | float):
-            yield path, kind, value
+def numbers(value, path=()):
+    """Yield the path of each number of the config, with the number itself."""
+    if isinstance(value, dict):
+        for name, inner in value.items():
+            yield from numbers(inner, (*path, name))
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield path, value
 
 
 @st.composite
 def changed_numbers(draw):
-    """Up to three numbers of the config with others, near their own or at their bounds."""
+    """Up to three numbers of the config with others near their own."""
     overlay = {}
-    paths = list(numbers(SCHEMA, load(STUDY)))
-    for path, kind, value in draw(st.lists(st.sampled_from(paths), max_size=3, unique_by=lambda it: it[0])):
-        low, high = kind.get("minimum", value / 2), kind.get("maximum", 2 * value)
-        number = draw(st.sampled_from([value / 2, value * 0.9, value * 1.25, value * 2, low, high]))
+    paths = list(numbers(load(STUDY)))
+    for path, value in draw(st.lists(st.sampled_from(paths), max_size=3, unique_by=lambda it: it[0])):
+        number = value * draw(st.sampled_from([0, 0.5, 0.9, 1.25, 2]))
         inner = overlay
         for name in path[:-1]:
             inner = inner.setdefault(name, {})
-        inner[path[-1]] = round(number) if kind["type"] == "integer" else number
+        inner[path[-1]] = round(number) if isinstance(value, int) else number
     return overlay
 
 
@@ -81,9 +72,7 @@ def studies(draw):
     """A config that lies over that of the study, and agrees with itself more often than not."""
     overlay = draw(changed_numbers())
     if draw(st.booleans()):
-        names = draw(
-            st.lists(st.sampled_from(["2nd", "oval", "Casing9"]), min_size=1, max_size=2, unique=True)
-        )
+        names = draw(st.sampled_from([["2nd"], ["oval"], ["Casing9", "2nd"]]))
         overlay["casings"] = {name: draw(casing()) for name in names}
         overlay["coatings"] = [draw(coating(name)) for name in names]
     if draw(st.booleans()):

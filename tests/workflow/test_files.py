@@ -13,17 +13,14 @@ from bladerub.cli import inputs, main
 from bladerub.io.tables import description_path
 
 COATING = "2nd_E2_K0.5_theta0.15"
-PLAIN_RUN = f"runs/{COATING}/0.2300.h5"
-KEPT_RUN = f"runs/{COATING}/0.1900.h5"
-MAP = f"maps/{COATING}.h5"
-
 WEAR_AND_SPECTRUM = {"wear", "angle", "spectrum_order", "spectrum_amplitude"}
 DATASETS = {
     "blade/reduced_model.h5": {"mass", "stiffness_0", "stiffness_1", "stiffness_2", "node_position"},
     "blade/mesh.h5": {"points", "cells", "recovery"},
-    PLAIN_RUN: WEAR_AND_SPECTRUM | {"revolution_peak", "revolution_amplitude"},
-    KEPT_RUN: WEAR_AND_SPECTRUM | {"revolution_peak", "radial_displacement"},
-    MAP: WEAR_AND_SPECTRUM | {"f_omega", "revolution_amplitude", "confirmation_amplitude"},
+    f"runs/{COATING}/0.2300.h5": WEAR_AND_SPECTRUM | {"revolution_peak", "revolution_amplitude"},
+    f"runs/{COATING}/0.1900.h5": WEAR_AND_SPECTRUM | {"revolution_peak", "radial_displacement"},
+    "runs/*/confirmation/*.h5": WEAR_AND_SPECTRUM | {"revolution_peak", "revolution_amplitude"},
+    f"maps/{COATING}.h5": WEAR_AND_SPECTRUM | {"f_omega", "revolution_amplitude", "confirmation_amplitude"},
 }
 """What docs/reference promises to those who read the files."""
 
@@ -53,47 +50,17 @@ def results(study):
 PROVENANCE = {"software", "git_commit", "git_state", "config_sha256", "packages"}
 
 
-def test_a_longer_run_opens_as_the_others_do(results):
-    longer, *_ = sorted((results / "runs").glob("*/confirmation/*.h5"))
-    test_file_opens_in_xarray_and_says_what_it_holds(results, longer.relative_to(results).as_posix())
-    with xr.open_dataset(longer, engine="h5netcdf", phony_dims="sort") as run:
-        assert set(run.variables) >= DATASETS[PLAIN_RUN]
-        assert run.sizes["revolution_number"] == 6
-
-
 @pytest.mark.parametrize("name", DATASETS)
 def test_file_opens_in_xarray_and_says_what_it_holds(results, name):
-    with xr.open_dataset(results / name, engine="h5netcdf", phony_dims="sort") as dataset:
-        assert set(dataset.variables) >= DATASETS.get(name, set())
+    path = min(results.glob(name))
+    with xr.open_dataset(path, engine="h5netcdf", phony_dims="sort") as dataset:
+        assert set(dataset.variables) >= DATASETS[name]
         assert set(dataset.attrs) >= {f"provenance_{what}" for what in PROVENANCE}
-    with h5py.File(results / name) as file:
+    with h5py.File(path) as file:
         for variable in file.values():
             assert variable.attrs["units"], variable.name
             assert variable.attrs["long_name"], variable.name
             assert variable.is_scale or all(len(dim) == 1 for dim in variable.dims), variable.name
-
-
-def test_manifest_lists_every_run_with_its_key(results):
-    manifest = pd.read_csv(results / "runs" / COATING / "manifest.tsv", sep="\t")
-    assert list(manifest.f_omega) == [0.15, 0.19, 0.197, 0.206, 0.23, 0.27, 0.31, 0.35]
-    for row in manifest.itertuples():
-        with h5py.File(results / "runs" / COATING / row.file) as run:
-            assert (run.attrs["run_key"], run.attrs["status"]) == (row.run_key, row.status)
-            assert run.attrs["f_omega"] == row.f_omega
-
-
-def test_runs_that_grow_are_judged_by_a_longer_one(results):
-    table = pd.read_csv(results / "tables" / "divergence.csv")
-    n_longer = 0
-    for path in (results / "runs").glob("*/manifest.tsv"):
-        for row in pd.read_csv(path, sep="\t").dropna(subset="confirmation_key").itertuples():
-            with h5py.File(path.parent / "confirmation" / row.file) as run:
-                assert run.attrs["run_key"] == row.confirmation_key
-                assert run.attrs["revolutions"] == 6
-            n_longer += 1
-    assert set(table.revolutions) <= {3, 6}
-    assert (table.revolutions == 6).sum() == n_longer
-    assert not (table.saturating & table.divergent).any()
 
 
 def test_beside_every_table_stands_what_its_columns_hold(results):
@@ -108,8 +75,6 @@ def test_beside_every_table_stands_what_its_columns_hold(results):
         for column in described:
             if column["datatype"] in ("number", "integer") and not table.empty:
                 assert table[column["name"]].dtype.kind in "if", (path, column)
-            if column["datatype"] == "integer":
-                assert (table[column["name"]].dropna() % 1 == 0).all(), (path, column)
         told = {entry["schema:name"] for entry in about["dc:provenance"]}
         assert told == {f"provenance_{what}" for what in PROVENANCE}
 
@@ -128,18 +93,13 @@ def test_the_rigid_casing_is_in_the_tables_but_not_in_the_histograms(results):
     for name, rows in (("peaks", 2), ("divergence", 8)):
         table = pd.read_csv(results / "tables" / f"{name}.csv")
         assert len(table.query("E == inf and K == inf")) == rows
-    histogram = pd.read_csv(results / "figures" / "fig11_Y4.csv")
-    assert list(histogram.E) == [0.11, 1.1, 2]
-    assert set(histogram.K) == {0.5}
+    assert list(pd.read_csv(results / "figures" / "fig11_Y4.csv").E) == [0.11, 1.1, 2]
 
 
 def test_every_figure_is_there_twice(results):
     for kind, first in (("png", b"\x89PNG"), ("pdf", b"%PDF")):
-        files = sorted((results / "figures").glob(f"*.{kind}"))
-        numbered = [path.name[:5] for path in files if path.name.startswith("fig")]
-        assert numbered == [f"fig{number:02}" for number in range(1, 20)]
-        ours = {path.stem for path in files if not path.name.startswith("fig")}
-        assert ours == {"history_0.2060", "margins"}
+        files = sorted((results / "figures").glob(f"fig*.{kind}"))
+        assert [path.name[:5] for path in files] == [f"fig{number:02}" for number in range(1, 20)]
         assert all(path.read_bytes().startswith(first) for path in files)
 
 
@@ -151,5 +111,5 @@ def test_status_counts_every_run_done(study, tiny, tmp_path, monkeypatch, capsys
     counts = json.loads(capsys.readouterr().out)
     assert counts["planned"] == counts["done"] == 6 * 8
     assert counts["longer_planned"] == counts["longer_done"]
-    runs = study.folder / "results" / "runs"
+    runs = study.results / "runs"
     assert counts["bytes"] == sum(file.stat().st_size for file in runs.glob("*/**/*") if file.is_file())

@@ -60,15 +60,12 @@ def test_the_runs_are_those_of_the_processor(copied_study, few, gpu):
     for name, run in on_gpu.items():
         other = on_cpu[name]
         assert run.attributes["run_key"] != other.attributes["run_key"]
-        assert run.attributes["status"] == other.attributes["status"]
         assert run.attributes["n_steps"] == other.attributes["n_steps"]
         np.testing.assert_allclose(run.data["wear"], other.data["wear"], rtol=0, atol=1e-9)
         np.testing.assert_allclose(run.data["revolution_peak"], other.data["revolution_peak"], rtol=1e-7)
     few["solver"]["device"] = "gpu"
     copied_study.build(few, *TARGETS)
-    again = copied_study.runs(f"{COATING}/[0-9]*.h5")
-    for name in on_gpu:  # out of the archive
-        assert again[f"{COATING}/{name}"] == files[f"{COATING}/{name}"]
+    assert copied_study.runs(f"{COATING}/[0-9]*.h5") == files  # out of the archive
 
 
 @pytest.mark.skipif(find_spec("cupy") is not None, reason="CuPy is installed")

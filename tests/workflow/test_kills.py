@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from test_rotor_rules import GROUP
 
 pytestmark = pytest.mark.nightly
 
@@ -22,34 +23,17 @@ UNEQUAL = re.compile(r"logs/|benchmarks/|.*\.lock")
 """Files that tell of the machine, not of the study."""
 LAST = 600
 """Longest that a study may take, s."""
-ROWS = {
-    "casing": "2nd",
-    "E": 2,
-    "K": 0.5,
-    "theta": 0.0,
-    "f_omega": [0.19, 0.28],
-    "blades": [4],
-    "length_scatter": [5.0e-5],
-    "frequency_scatter": [0.01],
-    "coupling": [0, 0.01],
-    "draws": 30,
-}
-ROTOR = {"seed": 1, "groups": {"some": ROWS}}
+ROWS = {"f_omega": [0.19, 0.28], "blades": [4], "coupling": [0, 0.01], "draws": 30}
+ROTOR = {"seed": 1, "groups": {"some": GROUP | ROWS}}
 
 
 def start(workspace, target):
     """Give the command, in a session of its own."""
     command = [Path(sys.executable).with_name("snakemake"), "-j2", target, "--configfile", "overlay.yaml"]
     with (workspace.folder / "output.txt").open("w") as output:
-        return subprocess.Popen(
-            command,
-            cwd=workspace.folder,
-            env=workspace.environment,
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-        )
+        streams = {"stdin": subprocess.DEVNULL, "stdout": output, "stderr": subprocess.STDOUT}
+        place = {"cwd": workspace.folder, "env": workspace.environment}
+        return subprocess.Popen(command, start_new_session=True, **place, **streams)
 
 
 def jobs_of(process):

@@ -4,18 +4,16 @@ They are run as they are written, in a copy of the repository whose studies are 
 one that runs this test: `.ci/run` makes it by the README's own command.
 """
 
-import copy
 import re
-import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 import yaml
 from workspace import ROOT, TINY, Workspace
 
 from bladerub.config import record
+from bladerub.config.read import load
 
 INSTALL = "python3 -m venv .venv && .venv/bin/pip install -r environment.txt"
 BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
@@ -33,18 +31,13 @@ def _without_installation(block: str) -> str:
     return "\n".join(line for line in lines if line != ".venv/bin/pytest")
 
 
-def merge(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
-    """Lay a config over another one, as the workflow does."""
-    both = copy.deepcopy(below)
-    for key, value in above.items():
-        nested = isinstance(value, dict) and isinstance(both.get(key), dict)
-        both[key] = merge(both[key], value) if nested else value
-    return both
-
-
 def run(page: str | Path, workspace: Workspace) -> str:
     """Run all commands of a page in one shell; return what they print."""
-    done = workspace.call("bash", "-euo", "pipefail", "-c", "\n".join(blocks(page)))
+    return call(workspace, "bash", "-euo", "pipefail", "-c", "\n".join(blocks(page)))
+
+
+def call(workspace: Workspace, *command: str) -> str:
+    done = workspace.call(*command)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     return done.stdout
 
@@ -53,9 +46,9 @@ def run(page: str | Path, workspace: Workspace) -> str:
 def clone(study: Workspace, tmp_path_factory: pytest.TempPathFactory) -> Workspace:
     """A copy of the complete tiny study, in which the full and the quick study are both the tiny one."""
     clone = study.copy(tmp_path_factory.mktemp("clone") / "bladerub")
-    config = clone.folder / "config" / "config.yaml"
-    config.write_text(yaml.safe_dump(merge(yaml.safe_load(config.read_text()), TINY), sort_keys=False))
-    (clone.folder / "config" / "quick.yaml").write_text(yaml.safe_dump(TINY, sort_keys=False))
+    config, quick = (clone.folder / "config" / f"{name}.yaml" for name in ("config", "quick"))
+    quick.write_text(yaml.safe_dump(TINY, sort_keys=False))
+    config.write_text(yaml.safe_dump(load(config, quick), sort_keys=False))
     (clone.folder / ".venv").symlink_to(sys.prefix)
     return clone
 
@@ -64,11 +57,10 @@ def clone(study: Workspace, tmp_path_factory: pytest.TempPathFactory) -> Workspa
 def full_study(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
     """The full study with the coatings and speeds of the quick one, of which nothing has been computed."""
     full = Workspace.at(tmp_path_factory.mktemp("full"))
-    quick, config = (
-        yaml.safe_load((full.folder / "config" / f"{name}.yaml").read_text()) for name in ("quick", "config")
-    )
-    config |= {key: quick[key] for key in ("coatings", "speeds", "chart")}
-    (full.folder / "config" / "config.yaml").write_text(yaml.safe_dump(config, sort_keys=False))
+    quick, path = (full.folder / "config" / f"{name}.yaml" for name in ("quick", "config"))
+    config = yaml.safe_load(path.read_text())
+    config |= {key: yaml.safe_load(quick.read_text())[key] for key in ("coatings", "speeds", "chart")}
+    path.write_text(yaml.safe_dump(config, sort_keys=False))
     return full
 
 
@@ -88,26 +80,13 @@ def test_the_commands_of_the_readme(clone: Workspace):
 def run_python(page: str, clone: Workspace) -> str:
     """Run the one example in Python of a page; return what it prints."""
     (example,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(), re.M | re.S)
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", example],
-        cwd=clone.folder,
-        env=clone.environment | {"MPLBACKEND": "agg"},
-        capture_output=True,
-        text=True,
-        timeout=300,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    return call(clone, "env", "MPLBACKEND=agg", sys.executable, "-W", "error", "-c", example)
 
 
-def test_the_python_example_of_the_readme(clone: Workspace):
+def test_the_python_examples_print_and_write_their_plots(clone: Workspace):
     printed = run_python("README.md", clone)
-    assert printed.startswith("Run\n")
     assert "completed" in printed
     assert "\nMap\n" in printed
-
-
-def test_the_python_example_of_the_first_study_writes_its_plots(clone: Workspace):
     assert run_python("docs/tutorials/first_study.md", clone).startswith("completed ")
     assert {path.name for path in clone.folder.glob("*.png")} == {"wear.png", "history.png", "spectrum.png"}
 
@@ -130,15 +109,10 @@ def test_the_first_study(clone: Workspace):
 def test_a_study_and_a_blade_of_ones_own(clone: Workspace):
     run("docs/tutorials/own_study.md", clone)
     results = clone.folder / "results_my_study"
-    assert sorted(path.stem for path in (results / "maps").glob("*.h5")) == [
-        "2nd_E1.1_K0.5_theta0",
-        "2nd_E1.1_K1_theta0",
-        "2nd_E2_K0.5_theta0",
-        "2nd_E2_K1_theta0",
-    ]
-    assert (results / "figures" / "wear_map" / "2nd_E2_K1_theta0.png").exists()
-    made_with = record.read(results)
-    assert [Path(file).name for file in made_with.files] == ["quick.yaml", "my_study.yaml"]
+    coatings = {f"2nd_E{E}_K{K}_theta0" for E in ("1.1", "2") for K in ("0.5", "1")}
+    assert {path.stem for path in (results / "maps").glob("*.h5")} == coatings
+    assert {path.stem for path in (results / "figures" / "wear_map").glob("*.png")} == coatings
+    assert [Path(file).name for file in record.read(results).files] == ["quick.yaml", "my_study.yaml"]
 
     figures = clone.folder / "results_my_blade" / "figures"
     made = sorted(path.relative_to(figures).as_posix() for path in figures.glob("**/*.png"))

@@ -44,23 +44,15 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     table = tables.read(copied_study.results / "tables" / "rotor.csv")
     assert len(table) == 5
     assert len(draws) == table.rows.sum() == 2 * 3 + 1 + 2 + 1
-    half = tables.read(copied_study.results / "tables" / "rotor_half.csv")
-    assert sorted(half.rows) == [1, 1, 1]  # of 3, 3 and 2 draws
     assert (draws.energy_residual < 1e-3).all()
-    assert (draws.largest_share.between(1 / draws.blades - 1e-9, 1)).all()
     alone = table[(table.blades == 1) & (table.frequency_scatter == 0)]
     assert alone.amplification_median.tolist() == [1.0, 1.0]
     drift = tables.read(copied_study.results / "tables" / "rotor_drift.csv")
     assert drift[["blades", "rows", "followed_rows"]].values.tolist() == [[1, 1, 1], [3, 2, 2]]
-    for name in ("rotor", "rotor_sweeps"):
-        assert (copied_study.results / "figures" / f"{name}.png").stat().st_size > 10_000
     assert copied_study.plan(tiny, "rotor") == {}
 
-    counted = copied_study.status()["rows_of_blades"]
-    assert (counted["planned"], counted["done"], counted["longer_planned"]) == (10, 10, 0)
-
     folder = next((copied_study.results / "rotor" / "runs").glob("*_f0.1900_n3_l5e-05_d0.01_c0.01"))
-    times = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
+    times = copied_study.runs()
     (folder / "0001.h5").unlink()
     (folder / "0002.h5").write_bytes(b"broken")
     counted = copied_study.status()["rows_of_blades"]
@@ -68,15 +60,15 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     copied_study.status("--discard")
     assert not (folder / "0002.h5").exists()
     copied_study.build(tiny, "rotor")
-    again = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
-    assert {name for name in times if times[name] != again[name]} == {"0001.h5", "0002.h5"}
+    again = copied_study.runs()
+    assert {name[-7:] for name in times if times[name] != again[name]} == {"0001.h5", "0002.h5"}
 
     write(copied_study, draws=4)
     assert copied_study.plan(tiny, "rotor") == TAIL | {"rotor_combination": 2}
     copied_study.build(tiny, "rotor")
     assert len(tables.read(copied_study.results / "tables" / "rotor_draws.csv")) == 2 * 4 + 1 + 2 + 1
-    more = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
-    assert {name for name in more if more[name] != again.get(name)} == {"0003.h5"}
+    more = copied_study.runs()
+    assert {name[-7:] for name in more if more[name] != again.get(name)} == {"0003.h5"}
 
 
 def test_a_study_may_be_of_rows_throughout(copied_study, tiny):

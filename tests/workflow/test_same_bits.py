@@ -12,21 +12,7 @@ from bladerub.study.cache import blade_digest
 from bladerub.study.store import read_run
 
 RUN = "runs/2nd_E2_K0.5_theta0.15/0.1970.h5"
-OPTIONS = [
-    "run",
-    "--casing",
-    "2nd",
-    "--E",
-    "2",
-    "--K",
-    "0.5",
-    "--theta",
-    "0.15",
-    "--f",
-    "0.197",
-    "--config",
-    "overlay.yaml",
-]
+OPTIONS = "run --casing 2nd --E 2 --K 0.5 --theta 0.15 --f 0.197 --config overlay.yaml"
 PROGRAM = """
 import sys
 import bladerub as br
@@ -58,7 +44,7 @@ def test_a_run_is_the_same_wherever_it_is_asked_for(copied_study, environment, t
 
     of_workflow = read_run(copied_study.results / RUN)
     by_command, by_interface = tmp_path / "command.h5", tmp_path / "interface.h5"
-    call(Path(sys.executable).with_name("bladerub"), *OPTIONS, "--output", str(by_command))
+    call(Path(sys.executable).with_name("bladerub"), *OPTIONS.split(), "--output", str(by_command))
     blade = call(sys.executable, "-c", PROGRAM, str(by_interface))
     built = copied_study.results / "hidden" / "reduced_model.h5"
     assert blade_digest(blade) == blade_digest(built)

@@ -33,14 +33,6 @@ def cluster():
     subprocess.run([ONE_NODE, "stop"], check=True)
 
 
-@pytest.fixture
-def longer(tiny):
-    """The tiny study with runs long enough to be hit."""
-    del tiny["solver"], tiny["analysis"]
-    tiny["speeds"]["step"] = 0.02
-    return tiny
-
-
 def datasets(path):
     with h5py.File(path) as file:
         return {name: file[name][()] for name in file}
@@ -54,35 +46,25 @@ def running_job(kind):
     return next(line.split()[0] for line in done.stdout.splitlines() if f"rule_{kind}" in line)
 
 
-def minutes_asked(workspace, config):
-    """What a dry-run says: rules that stay by themselves, groups, and the minutes each rule asks for."""
-    done = workspace.snakemake(*PROFILE, "--dry-run", config=config)
+@pytest.mark.parametrize(("revolutions", "minutes"), [(3, 2), (300, 3)])
+def test_every_job_but_the_first_two_shares_its_place_in_the_queue(workspace, tiny, revolutions, minutes):
+    tiny["solver"]["revolutions"] = revolutions
+    tiny["analysis"]["divergence"]["confirmation_revolutions"] = 0
+    done = workspace.snakemake(*PROFILE, "--dry-run", config=tiny)
     assert done.returncode == 0, done.stderr
     text = done.stdout + done.stderr
-    alone = re.findall(r"^rule (\w+):", text, re.MULTILINE)
-    groups = re.findall(r"Group job (\w+)", text)
-    times = re.findall(r"rule (\w+):.*?runtime=(\d+)", text, re.DOTALL)
-    return alone, groups, {rule: int(minutes) for rule, minutes in times}
-
-
-def test_every_job_but_the_first_two_shares_its_place_in_the_queue(workspace, tiny):
-    alone, groups, minutes = minutes_asked(workspace, tiny)
-    assert sorted(alone) == ["all", "blade", "compile_kernel"]
-    assert sorted(groups) == ["drawing", "rubs"]
-    assert (minutes["coating"], minutes["margins"]) == (2, 1)
-
-
-def test_time_asked_for_grows_with_the_revolutions_of_a_coating(workspace, tiny):
-    tiny["solver"]["revolutions"] = 300
-    tiny["analysis"]["divergence"]["confirmation_revolutions"] = 0
-    _, _, minutes = minutes_asked(workspace, tiny)
-    assert minutes["coating"] == 3
+    assert sorted(re.findall(r"^rule (\w+):", text, re.MULTILINE)) == ["all", "blade", "compile_kernel"]
+    assert sorted(re.findall(r"Group job (\w+)", text)) == ["drawing", "rubs"]
+    asked = dict(re.findall(r"rule (\w+):.*?runtime=(\d+)", text, re.DOTALL))
+    assert (asked["coating"], asked["margins"]) == (str(minutes), "1")
 
 
 @pytest.mark.nightly
 @pytest.mark.slurm
 @pytest.mark.skipif(obstacle() is not None, reason=str(obstacle()))
-def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspace, longer, tmp_path_factory):
+def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspace, tiny, tmp_path_factory):
+    del tiny["solver"], tiny["analysis"]  # runs long enough to be hit
+    longer = tiny | {"speeds": tiny["speeds"] | {"step": 0.02}}
     often = "--slurm-init-seconds-before-status-checks=3"
     on_cluster = [*PROFILE, "--slurm-status-command=squeue", often]
     earlier = JOBS_LOG.read_text()

@@ -67,26 +67,16 @@ def test_jobs_are_planned(planned, tiny):
 @pytest.mark.nightly
 def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(planned, tiny):
     planned.build(tiny, "robustness")
-    table = read(planned, "robustness").set_index("id")
-    assert list(table.index[4:6]) == ["C3c", "C3d"]
-    table = table[table.samples > 0]  # the tiny study does not reach 0.38
+    table = read(planned, "robustness").set_index("id").query("samples > 0")  # it does not reach 0.38
     assert list(table.index) == ["C1a", "C1b", "C3a", "C3c", "C10a", "C10b", "C10c", "C10d"]
     assert list(table.samples) == [16] * 4 + [2] * 4
     assert (table.yes_share + table.partly_share + table.no_share).to_numpy() == pytest.approx(1)
-    assert (table.runs_per_sample > 0).all()
-    design = read(planned, "robustness_design")
-    assert len(design) == 16 * 3
-    assert set(design.value[design.factor == "lean"]) == {12, 13}
     assert len(read(planned, "robustness_verdicts")) == 4 * 17 + 4 * 3
     blades = list((planned.results / "robustness" / "blades").glob("*/reduced_model.h5"))
     assert len(blades) == 3  # two of the samples, one of the study's own values
-    assert (planned.results / "figures" / "robustness.png").stat().st_size > 10_000
 
     assert planned.plan(tiny, "robustness") == {}
     assert planned.plan(tiny) == {}
-
-    tiny["figures"] = {"dpi": 90}
-    assert planned.plan(tiny, "robustness") == {"robustness": 1}  # the picture
 
     lost = planned.results / "robustness" / "lobes" / "1" / "verdicts.csv"
     said = lost.read_bytes()
@@ -109,19 +99,11 @@ def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(planned, tin
     assert sets.unit[0] == pytest.approx(6.0e8)  # the study's own
     assert sets.unit[1] == pytest.approx(3.0e8)
     assert set(sets.tip_turns) == {0, 1}
-    waves = read(planned, "identification_waves")
-    assert list(waves.sets) == [16, 20]
-    assert (waves.remaining >= IDENTIFICATION["remaining"]).all()
-    targets = read(planned, "identification_targets").set_index("target")
-    assert set(targets["id"]) == {"C10a", "C10b", "C10c", "C10d"}
-    assert (targets.lowest <= targets.own_value).all()
-    assert read(planned, "identification_emulators").within_two.between(0, 1).all()
+    assert list(read(planned, "identification_waves").sets) == [16, 20]
+    assert set(read(planned, "identification_targets")["id"]) == {"C10a", "C10b", "C10c", "C10d"}
     counts = read(planned, "identification_counts")
     assert list(counts.candidate) == [0, 0, 1, 1]
-    assert (counts.parts >= counts.yes).all()
     assert counts.parts.nunique() == 1  # of all claims that the study can judge
-    assert set(read(planned, "identification_ranges").factor) == set(IDENTIFICATION["factors"])
-    assert (planned.results / "figures" / "identification.png").stat().st_size > 10_000
     assert planned.plan(tiny, "identify") == {}
 
     lost = planned.results / "identification" / "wave2" / "0" / "quantities.csv"

@@ -149,15 +149,9 @@ class Workspace:
     def status(self, *options: str) -> dict[str, Any]:
         """What `bladerub status` says of the study that was last given to Snakemake."""
         own_sources = {"PYTHONPATH": str(self.folder / "src")}  # its results are those beside its sources
+        program = Path(sys.executable).with_name("bladerub")
         told = subprocess.run(
-            [
-                Path(sys.executable).with_name("bladerub"),
-                "status",
-                "--json",
-                "--config",
-                "overlay.yaml",
-                *options,
-            ],
+            [program, "status", "--json", "--config", "overlay.yaml", *options],
             cwd=self.folder,
             env=os.environ | own_sources,
             capture_output=True,
