@@ -109,8 +109,7 @@ rule peak_bands:
 
 if config["ensemble"]["members"]:
     # the tables need the members, but Snakemake replaces no lost one for an ensemble that is there
-    LISTED_MEMBERS = expand(rules.ensemble.output.members, coating=COATINGS)
-    ADDED_TO_ALL["ensemble"] = ENSEMBLES + LISTED_MEMBERS
+    ADDED_TO_ALL["ensemble"] = expand(rules.ensemble.output, coating=COATINGS)
     ADDED_TO_ALL["bands"] = rules.bands.output
     if JUDGED:
         ADDED_TO_ALL["claim_draws"] = rules.claim_draws.output

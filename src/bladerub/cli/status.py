@@ -27,8 +27,8 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--thorough",
         action="store_true",
-        help="read the blade and every run, map, ensemble, table, manifest and chart point to its end, "
-        "and compare its checksum, which finds a single changed bit (some minutes)",
+        help="read every file of the results that carries a checksum to its end and compare it, which finds "
+        "a single changed bit (some minutes)",
     )
     parser.add_argument(
         "--discard",

@@ -1,4 +1,4 @@
-"""Several runs in one file: a run with its longer one, or an ensemble with those of all its members.
+"""Several runs in one file, such as a run with its longer one.
 
 Each run has a prefix before the names of its datasets, dimensions and attributes. That of one run is empty:
 its names are those of the file of a single run (`bladerub.study.store`).
