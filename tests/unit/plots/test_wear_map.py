@@ -82,16 +82,12 @@ def test_wear_is_that_of_the_speeds_asked_for(coating_map, draws):
 
 @pytest.mark.parametrize("over", ["speed", "frequency"])
 def test_lines_have_slope_k_and_end_at_the_frame(over):
-    axes = Figure().add_subplot()
-    if over == "speed":
-        engine_orders.draw(axes, {k: k for k in range(1, 9)}, 0.4, 2.0)
-        lines = [line.get_xydata() for line in axes.lines]
-    else:
-        engine_orders.draw(axes, {k: 1 / k for k in range(1, 9)}, 2.0, 0.4)
-        lines = [line.get_xydata()[:, ::-1] for line in axes.lines]
-    for k, line in enumerate(lines, start=1):
-        (x0, y0), (speed, f) = line
-        assert (x0, y0) == (0, 0)
+    axes, inverse = Figure().add_subplot(), over == "frequency"
+    slopes = {k: 1 / k if inverse else k for k in range(1, 9)}
+    engine_orders.draw(axes, slopes, *((2.0, 0.4) if inverse else (0.4, 2.0)))
+    for k, line in enumerate(axes.lines, start=1):
+        start, (speed, f) = line.get_xydata()[:, :: -1 if inverse else 1]
+        assert start.tolist() == [0, 0]
         assert f == pytest.approx(k * speed)
         assert speed == pytest.approx(0.4) or f == pytest.approx(2.0)
 

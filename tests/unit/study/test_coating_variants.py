@@ -39,13 +39,9 @@ def test_a_variant_changes_its_own_runs_alone(config):
     config["contact"]["scale"] = {"length": 2.0, "modulus": 1.0, "time": 1.0}
     before, after = (grid.run_spec(config, case, 0.19) for case in (PLAIN, VARIANT))
     assert (after.damping_ratio, after.coating.thickness, after.casing.interference) == (1e-3, 8e-3, 8e-4)
-    restored = dataclasses.replace(
-        after,
-        damping_ratio=before.damping_ratio,
-        coating=dataclasses.replace(after.coating, thickness=before.coating.thickness),
-        casing=dataclasses.replace(after.casing, interference=before.casing.interference),
-    )
-    assert restored == before
+    parts = [pd.json_normalize(dataclasses.asdict(spec)).iloc[0].to_dict() for spec in (before, after)]
+    changed = {name for name, value in parts[0].items() if parts[1][name] != value}
+    assert changed == {"damping_ratio", "coating.thickness", "casing.interference"}
     keys = [coating_plan(config, case).runs[0].key("blade") for case in (PLAIN, VARIANT)]
     assert keys[0] != keys[1]
 
