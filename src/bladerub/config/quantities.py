@@ -1,6 +1,7 @@
 """Quantities typed with a unit become the numbers that they stand for, wherever a config has a number."""
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Any
 
 from bladerub.blade.cache import first_frequency, rounded_frequency
@@ -73,31 +74,27 @@ def converted(
     that it is for.
     """
     key = key_of(kind or whole())
-    wanted: set[str] = set()
-
-    def note(name: str) -> float:
-        wanted.add(name)
-        raise Unknown
-
-    config = _converted(config, key, note)
-    if not wanted or (kind and study is None):
+    config = _converted(config, key, unknown)
+    if kind and study is None:
         return config, []
-    size_of = references(study or config.plain())
-    sizes, reasons = {}, []
-    for name in sorted(wanted):
+    reasons: list[str] = []
+
+    @cache
+    def size(name: str) -> float | None:
         try:
             if not study:
                 _require_sound(config, _READS.get(name, {"contact"}))
-            sizes[name] = size_of(name)
+            return references(study or config.plain())(name)
         except Unknown:
-            continue
+            return None
         except (ValueError, OSError) as error:
             reasons.append(f"blade: no first frequency, which speeds in rpm need: {error}")
+            return None
 
     def known(name: str) -> float:
-        if name not in sizes:
+        if (value := size(name)) is None:
             raise Unknown
-        return sizes[name]
+        return value
 
     return _converted(config, key, known), reasons
 
