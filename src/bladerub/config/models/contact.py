@@ -1,7 +1,7 @@
 """Contact: coating, tip and clearance, and the shapes of the casings."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Union
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
@@ -75,7 +75,9 @@ CasingInterference = Annotated[
 ]
 
 
-class _AnyCasing(Section):
+class AnyCasing(Section):
+    """What every casing has."""
+
     interference: CasingInterference
     start_angle: StartAngle
     peak_orders: Omitted[EngineOrders] = None
@@ -84,7 +86,7 @@ class _AnyCasing(Section):
     speed."""
 
 
-class Casing(_AnyCasing):
+class Casing(AnyCasing):
     """Shape of one casing, a sum of waves, or of bumps."""
 
     nodal_diameters: Annotated[
@@ -111,45 +113,24 @@ class Casing(_AnyCasing):
         return self
 
 
-class GapTable(Section):
-    """A text with the columns angle and gap, named in its first row.
-
-    The gap is what contact.clearance is added to, negative where tip and coating overlap, at angles that
-    count in the direction of rotation. ``contact.scale`` does not apply to it.
-    """
-
-    file: Annotated[str, Form("the path of a file that ends in .csv, .txt or .dat")] = Field(
-        pattern=r"^.+\.([cC][sS][vV]|[tT][xX][tT]|[dD][aA][tT])$"
-    )
-    """Relative to the folder that Snakemake runs in."""
-    unit: Omitted[Literal["m", "mm", "cm", "inch", "in", "feet", "ft"]] = None
-    """Of the gap; m if it is not given."""
-    angle_unit: Omitted[Literal["rad", "deg"]] = None
-    """deg if it is not given."""
-
-
-class MeasuredCasing(_AnyCasing):
-    """Shape of one casing by a table of the gap around it."""
-
-    table: GapTable
-    interference: Omitted[CasingInterference] = None
-
-
-def _kind(entry: Any) -> str:
-    return "measured" if isinstance(entry, Mapping) and "table" in entry else "sum"
-
-
 CasingNames = Annotated[
     str,
     Field(pattern=r"^[A-Za-z0-9]+$", max_length=40),
     Form("at most 40 letters and digits, it becomes part of file names"),
 ]
-Casings = Annotated[
-    dict[
-        CasingNames,
-        Annotated[
-            Annotated[Casing, Tag("sum")] | Annotated[MeasuredCasing, Tag("measured")], Discriminator(_kind)
-        ],
-    ],
-    Field(min_length=1, max_length=100, description="Rigid inner shapes, by short names as in the paper."),
-]
+
+
+def casings(kinds: Mapping[str, type[Section]]) -> Any:
+    """Make the type of the group, with `kinds` beside `Casing` by a key that they alone have."""
+
+    def tag(entry: Any) -> str:
+        return next((key for key in kinds if isinstance(entry, Mapping) and key in entry), "sum")
+
+    models = {"sum": Casing, **kinds}
+    union = Union[tuple(Annotated[model, Tag(name)] for name, model in models.items())]  # noqa: UP007
+    return Annotated[
+        dict[CasingNames, Annotated[union, Discriminator(tag)] if kinds else Casing],
+        Field(
+            min_length=1, max_length=100, description="Rigid inner shapes, by short names as in the paper."
+        ),
+    ]

@@ -12,7 +12,7 @@ from bladerub.config.fields import BladeLengths, Form, Limit, Number, Omitted, S
 from bladerub.config.models.analysis import Analysis, Figures
 from bladerub.config.models.blade import Blade, Reduction
 from bladerub.config.models.coatings import Coatings
-from bladerub.config.models.contact import Casings, Contact
+from bladerub.config.models.contact import Contact, casings
 from bladerub.config.models.quantities import RunSpeed
 
 
@@ -71,7 +71,7 @@ class Study(Section):
     blade: Blade
     reduction: Reduction
     contact: Contact
-    casings: Casings
+    casings: casings({})  # type: ignore[valid-type]
     coatings: Coatings
     speeds: Speeds
     solver: Solver
@@ -82,7 +82,13 @@ class Study(Section):
 @cache
 def whole() -> type[Section]:
     """Make the model of a config: the core with what plugs in (``SECTIONS`` of `bladerub.plugins`)."""
-    return _extended(Study, "", plugins.loaded("SECTIONS"))
+    offered = plugins.loaded("SECTIONS")
+    kinds = {
+        key.removeprefix("casings."): offered.pop(key) for key in [*offered] if key.startswith("casings.")
+    }
+    field = (casings(kinds), ...)
+    study = create_model("Study", __base__=Study, __doc__=Study.__doc__, casings=field)
+    return _extended(study, "", offered)
 
 
 def required() -> set[str]:
