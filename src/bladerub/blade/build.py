@@ -1,22 +1,22 @@
 """From the config to the reduced blade and the tables that say how good it is."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from bladerub import plugins
 from bladerub.blade import geometry
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
 from bladerub.blade.elasticity import Material
-from bladerub.blade.files import made_from
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import N_INTERFACE, n_interface
-from bladerub.blade.reduction import fit_speeds
-from bladerub.blade.refinement import MOST_FIT_SPEEDS, reduce_to_tolerance
+from bladerub.blade.reduction import fit_speeds, reduce
 from bladerub.blade.source import reader
+from bladerub.io.errors import BadInput
 
 
 def build(config: Mapping[str, Any]) -> BuiltBlade:
@@ -50,12 +50,24 @@ def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
     def discrete(n_speeds: int) -> DiscreteBlade:
         return discretise(blade, {**config, "reduction": {**config["reduction"], "fit_speeds": n_speeds}})
 
-    return reduce_to_tolerance(discrete, config, made_from(config), MOST_FIT_SPEEDS)
+    return _reduce(discrete, config)
 
 
 def reduce_given(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
     """Reduce a blade of given matrices with as many modes as its tolerance asks for; see `build`."""
-    return reduce_to_tolerance(lambda _: blade, config, made_from(config), len(fit_speeds(1.0)))
+    return _reduce(lambda _: blade, config, len(blade.stiffness))
+
+
+def _reduce(
+    discrete: Callable[[int], DiscreteBlade], config: Mapping[str, Any], most_fit_speeds: int | None = None
+) -> BuiltBlade:
+    """Reduce what `discrete` gives for a number of fit speeds; a tolerance asks for more (``REDUCTIONS``)."""
+    reduction = config["reduction"]
+    if "tolerance" not in reduction:
+        return reduce(discrete(reduction.get("fit_speeds", 3)), config, reduction)
+    if "tolerance" not in (offered := plugins.offered("REDUCTIONS")):
+        raise BadInput("reduction.tolerance: must be left out, this package does not refine a reduction")
+    return plugins.load(offered["tolerance"]).reduce_to_tolerance(discrete, config, most_fit_speeds)
 
 
 @threadpool_limits.wrap(limits=1)

@@ -63,7 +63,7 @@ class Solid(FreeCoordinates):
         self._weights = scalar.dx  # (element, point)
         self._gradients = np.stack([np.moveaxis(np.asarray(b[0].grad), 0, -1) for b in scalar.basis], axis=-2)
         self._dofs = dofs.element_dofs.T  # (element, 3 n_nodes), node by node as in `_gradients`
-        self._pattern = _Pattern(self._dofs[:, ::3] // 3, self.free[::3] // 3, self.n_nodes)
+        self._pattern = _Pattern(self._dofs, self.free, 3 * self.n_nodes)
         products = mass.assemble(Basis(mesh, mesh.elem(), quadrature=mesh.mass_quadrature()))
         of_all = sparse.kron(products, sparse.eye_array(3), format="csc") * material.density
         self.mass = sparse.csc_array(of_all[self.free][:, self.free])
@@ -138,49 +138,29 @@ def _deformation_gradient(gradients: np.ndarray, displacement: np.ndarray) -> np
 
 
 class _Pattern:
-    """Where the entries of the element matrices go in a sparse matrix of the free coordinates.
+    """Where the entries of the element matrices go in a sparse matrix (n, n) of the free coordinates."""
 
-    It is found node by node: three coordinates of one are coupled to the three of another.
-    """
-
-    def __init__(self, cells: np.ndarray, free_nodes: np.ndarray, n_nodes: int):
-        n_free = free_nodes.size
-        place = np.full(n_nodes, -1)
-        place[free_nodes] = np.arange(n_free)
-        number = place[cells]  # (element, node)
-        rows, columns = np.broadcast_arrays(number[:, :, None], number[:, None, :])
-        is_free = (rows >= 0) & (columns >= 0)
-        pairs, which = np.unique(
-            columns[is_free].astype(np.int64) * n_free + rows[is_free], return_inverse=True
-        )
-        starts = np.searchsorted(pairs // n_free, np.arange(n_free + 1))
-        above, column = np.arange(pairs.size) - starts[pairs // n_free], pairs // n_free
-        height = np.diff(starts)[column]  # of the column, in nodes
-
-        axis = np.arange(3)
-        # a pair's entry at row axis i, column axis j, in a matrix stored column by column
-        first = 9 * starts[column] + 3 * above
-        entries = first[:, None, None] + axis[:, None] + 3 * height[:, None, None] * axis
-        size = 9 * pairs.size
-        target = np.full((*rows.shape, 3, 3), size)  # what is clamped goes behind the last
-        target[is_free] = entries[which]
-        self._target = np.swapaxes(target, 2, 3).ravel()
-        self._rows = np.empty(size, dtype=np.int32)
-        self._rows[entries] = (3 * (pairs % n_free))[:, None, None] + axis[:, None]
-        self._starts = np.append(0, np.cumsum(np.repeat(3 * np.diff(starts), 3))).astype(np.int32)
-        self._shape = (3 * n_free, 3 * n_free)
+    def __init__(self, dofs: np.ndarray, free: np.ndarray, n_all: int):
+        self._n = free.size
+        number = np.full(n_all, -1)
+        number[free] = np.arange(self._n)
+        row, column = number[dofs][:, :, None], number[dofs][:, None, :]
+        clamped = (row < 0) | (column < 0)
+        # of each entry, column by column; what is clamped goes behind the last
+        keys, target = np.unique(np.where(clamped, self._n**2, column * self._n + row), return_inverse=True)
+        self._target = target.ravel()
+        self._keys = keys[: np.searchsorted(keys, self._n**2)]
+        self._rows = (self._keys % self._n).astype(np.int32)
+        self._starts = np.searchsorted(self._keys, self._n * np.arange(self._n + 1)).astype(np.int32)
 
     def assemble(self, elements: np.ndarray) -> sparse.csc_array:
-        size = self._rows.size
-        values = np.bincount(self._target, weights=elements.ravel(), minlength=size + 1)[:size]
-        return sparse.csc_array((values, self._rows, self._starts), shape=self._shape)
+        values = np.bincount(self._target, weights=elements.ravel(), minlength=self._keys.size)
+        values = values[: self._keys.size]
+        return sparse.csc_array((values, self._rows, self._starts), shape=(self._n, self._n))
 
     def values_of(self, matrix: sparse.sparray) -> np.ndarray:
         """Values of a `matrix` with some of these entries at each of them, 0 where it has none."""
-        matrix = sparse.csc_array(matrix).sorted_indices()
-        numbers = np.arange(1.0, self._rows.size + 1)
-        numbered = sparse.csc_array((numbers, self._rows, self._starts), shape=self._shape)
-        pattern = sparse.csc_array((np.ones(matrix.nnz), matrix.indices, matrix.indptr), shape=self._shape)
-        values = np.zeros(self._rows.size)
-        values[(numbered * pattern).data.astype(np.intp) - 1] = matrix.data
+        entries, values = sparse.coo_array(matrix), np.zeros(self._keys.size)
+        column, row = entries.col.astype(np.int64), entries.row
+        values[np.searchsorted(self._keys, column * self._n + row)] = entries.data
         return values

@@ -1,9 +1,7 @@
 """Factor a sparse symmetric matrix once, solve many times; lowest modes by shift-invert."""
 
 import functools
-import importlib.util
 import os
-import weakref
 from collections.abc import Callable
 
 import numpy as np
@@ -22,16 +20,14 @@ THREADS = 2  # of RSLAB, whose own choice may be more than there are cores
 def factorise(matrix: sparse.csc_array) -> Solve:
     """Factor `matrix`, symmetric and regular; return what solves for a right-hand side (n,) or (n, k).
 
-    PARDISO does the work when pypardiso is installed, else RSLAB: the factors of LDLᵀ take half the memory
-    and half the time of SciPy's SuperLU, and are the same to the last bit with any number of threads. SuperLU
-    serves a fork of a process that has used RSLAB: its threads are not in the fork, which would wait for them
-    for ever. Raises numpy.linalg.LinAlgError if the matrix is singular.
+    RSLAB does the work: its factors LDLᵀ take half the memory and half the time of SciPy's SuperLU, and are
+    the same to the last bit with any number of threads. SuperLU serves a fork of a process that has used
+    RSLAB: its threads are not in the fork, which would wait for them for ever. Raises
+    numpy.linalg.LinAlgError if the matrix is singular.
     """
     try:
         if _process_of_threads() != os.getpid():
             return splu(matrix).solve
-        if importlib.util.find_spec("pypardiso"):
-            return _Pardiso(matrix)
         factors = rslab.ldlt(matrix, threads=THREADS)
     except RuntimeError as error:
         raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error
@@ -41,25 +37,6 @@ def factorise(matrix: sparse.csc_array) -> Solve:
 @functools.cache
 def _process_of_threads() -> int:
     return os.getpid()
-
-
-class _Pardiso:
-    """Factors kept by PARDISO, whose memory must be freed explicitly."""
-
-    def __init__(self, matrix: sparse.csc_array):
-        from pypardiso import PyPardisoSolver
-        from pypardiso.pardiso_wrapper import PyPardisoError
-
-        self._matrix = sparse.csr_matrix(sparse.triu(matrix))
-        self._solver = PyPardisoSolver(mtype=-2)  # symmetric: half the memory of one that need not be
-        weakref.finalize(self, self._solver.free_memory, everything=True)
-        try:
-            self._solver.factorize(self._matrix)
-        except (ValueError, PyPardisoError) as error:
-            raise RuntimeError(str(error)) from error
-
-    def __call__(self, rhs: np.ndarray) -> np.ndarray:
-        return self._solver.solve(self._matrix, rhs)
 
 
 def lowest_modes(

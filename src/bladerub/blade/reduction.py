@@ -1,13 +1,26 @@
 """Craig-Bampton reduction with centrifugal stiffening, eqs. (2) to (6)."""
 
-from collections.abc import Sequence
+import logging
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.linalg import blas
+from threadpoolctl import threadpool_limits
 
+from bladerub.blade.accuracy import accuracy_table
+from bladerub.blade.built import BuiltBlade
+from bladerub.blade.discrete import DiscreteBlade
+from bladerub.blade.files import made_from
+from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import Solve, factorise, lowest_modes
+from bladerub.blade.model import ReducedBlade, stiffness_at
 from bladerub.blade.preconditioned_cg import PreconditionedCG
+from bladerub.blade.tip_slope import tip_slope
+
+log = logging.getLogger(__name__)
 
 
 def fit_speeds(f_max: float, count: int = 3) -> list[float]:
@@ -136,3 +149,85 @@ def project(matrix: sparse.csc_array, phi: np.ndarray) -> np.ndarray:
     """Φᵀ A Φ, exactly symmetric, of the symmetric matrix A of a model whose u is Φ (u_f, q), eq. (6)."""
     reduced = phi.T @ (matrix @ phi)  # eq. (6)
     return 0.5 * (reduced + reduced.T)
+
+
+@threadpool_limits.wrap(limits=1)  # as `by_finite_elements`
+def reduce(blade: DiscreteBlade, config: Mapping[str, Any], reduction: Mapping[str, Any]) -> BuiltBlade:
+    """Reduce `blade`, of `config`, as a block ``reduction`` says, its own or one with finer values.
+
+    Raises as `bladerub.blade.files.made_from`.
+    """
+    mesh, full = blade.layout.mesh, blade.free.full
+    f_max = reduction["f_omega_max"]
+
+    partition = Partition.around(blade.free.coordinates(mesh.interface), blade.mass.shape[0])
+    fits = [blade.stiffness[f_omega] for f_omega in fit_speeds(f_max, reduction.get("fit_speeds", 3))]
+    eta, rank_tolerance = reduction["modes_per_speed"], reduction["rank_tolerance"]
+    phi = transformation(fits, blade.mass, partition, eta, rank_tolerance, blade.at_rest)
+    recovery = np.stack([full(column) for column in phi.T])  # eq. (6)
+    radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.layout.tip_cone)
+    k0, k1, k2, *higher = speed_law([project(stiffness, phi) for stiffness in fits], f_max)  # eqs. (3), (6)
+    reduced = ReducedBlade(
+        project(blade.mass, phi),  # eq. (6)
+        k0,
+        k1,
+        k2,
+        node_position=mesh.mesh.points[mesh.interface],
+        radial_direction=radial,
+        tangential_direction=tangential,
+        f1_hz=float(blade.frequency[0]),
+        f_omega_max=f_max,
+        eta=eta,
+        rank_tolerance=rank_tolerance,
+        length=config["blade"]["length"],
+        stiffness_higher=tuple(higher),
+        tip_slope=tip_slope(mesh, recovery, radial, tangential),
+    )
+    highest = reduced_frequencies(reduced, f_max)[-1]
+    log.info("%d reduced coordinates, highest %.4g Hz", len(reduced.mass), highest)
+
+    shapes = np.stack([full(mode) for mode in blade.modes.T])
+    moved = [f_omega for f_omega in blade.frequencies if f_omega in blade.displacement]
+    return BuiltBlade(
+        reduced,
+        mesh,
+        blade.frequency,
+        shapes / np.abs(shapes).max(axis=(1, 2), keepdims=True),
+        recovery,
+        np.array([full(blade.displacement[f_omega]) for f_omega in moved]).reshape(-1, *shapes.shape[1:]),
+        np.array(moved, dtype=float),
+        accuracy_table(reduced, blade.frequencies, _frequencies_by_law(blade, fits, f_max)),
+        made_from(config),
+    )
+
+
+def _frequencies_by_law(blade: DiscreteBlade, fits: list, f_max: float) -> dict[float, np.ndarray]:
+    """Frequencies (Hz) of the unreduced `blade` with the stiffness of eq. (2), at its accuracy speeds."""
+    if blade.at_rest is None:
+        coefficients = speed_law(fits, f_max)
+        return {
+            f_omega: lowest_modes(stiffness_at(coefficients, f_omega), blade.mass, blade.frequency.size)[0]
+            for f_omega in blade.frequencies
+        }
+    shares = speed_law(np.eye(len(fits)), f_max)  # of the fits: coefficients as large would fill the memory
+    frequencies = {}
+    for f_omega in blade.frequencies:
+        values = np.zeros(fits[0].nnz)
+        for weight, fit in zip(stiffness_at(shares, f_omega), fits, strict=True):
+            values = blas.daxpy(fit.data, values, a=weight)  # in place
+        law = sparse.csc_array((values, fits[0].indices, fits[0].indptr), shape=fits[0].shape)
+        modes = blade.modes_at_speed[f_omega]
+        frequencies[f_omega] = PreconditionedCG(law, blade.at_rest).lowest_modes(blade.mass, modes)[0]
+    return frequencies
+
+
+def directions(position: np.ndarray, tip_cone: float) -> tuple[np.ndarray, np.ndarray]:
+    """Give unit vectors (n, 3) out of the flow path and along the rotation at points (n, 3) of the tip.
+
+    The first is radial for a cylindrical flow path; where it widens downstream by `tip_cone` (rad) it leans
+    upstream by that angle, as the normal of the casing does.
+    """
+    phi = np.arctan2(position[:, 1], position[:, 2])
+    zero, cone = np.zeros_like(phi), np.full_like(phi, tip_cone)
+    radial = np.stack([-np.sin(cone), np.cos(cone) * np.sin(phi), np.cos(cone) * np.cos(phi)], axis=1)
+    return radial, np.stack([zero, np.cos(phi), -np.sin(phi)], axis=1)

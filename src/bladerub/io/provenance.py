@@ -21,7 +21,7 @@ from bladerub.io.folders import ROOT
 PREFIX = "provenance_"  # of the name of each of these attributes, and of no other
 UNKNOWN = "unknown"
 
-_PACKAGES = ("numpy", "scipy", "numba", "h5py", "scikit-fem", "rslab", "pandas", "openturns", "pypardiso")
+_PACKAGES = ("numpy", "scipy", "numba", "h5py", "scikit-fem", "rslab", "pandas", "openturns")
 _NOT_THE_STUDY = {"results"}  # where files lie says nothing of what is in them
 _SECONDS = 10
 
@@ -98,7 +98,7 @@ def git_state() -> tuple[str, str]:
 
 @cache
 def packages() -> str:
-    """Versions of what shapes the numbers; PARDISO takes part in the blade where it is installed."""
+    """Versions of what shapes the numbers."""
     versions = [f"python=={platform.python_version()}"]
     for name in _PACKAGES:
         with suppress(PackageNotFoundError):

@@ -7,7 +7,7 @@ from blade_parts import REDUCTION
 from bladerub.blade.build import build
 from bladerub.blade.built import write
 from bladerub.blade.geometry import BladeShape
-from bladerub.blade.refinement import directions
+from bladerub.blade.reduction import directions
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import hdf5
 

@@ -9,7 +9,7 @@ from bladerub.blade.accuracy import ACCURACY_COLUMNS, accuracy_table, doubts
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.mesh import BladeMesh, NodeCloud
 from bladerub.blade.model import write_reduced_blade
-from bladerub.blade.refinement import directions
+from bladerub.blade.reduction import directions
 from bladerub.blade.tip import tip_radius
 from bladerub.blade.tip_slope import tip_slope
 from bladerub.blade.validation import read_reduced_blade, read_valid_blade

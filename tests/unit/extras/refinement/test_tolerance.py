@@ -3,9 +3,9 @@ import types
 import pandas as pd
 import pytest
 
-from bladerub.blade import refinement
 from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.build import build
+from bladerub.extras.refinement import tolerance as refinement
 
 REDUCTION = {
     "f_omega_max": 0.8,  # so fast that eq. (2) is not enough
@@ -53,16 +53,16 @@ def tried(monkeypatch):
     def search(tolerance, speed_law, reduced_model, most_fit_speeds=7, mode=1):
         tried = []
 
-        def reduce(n_speeds, reduction, *_):
+        def reduce(n_speeds, _, reduction):
             tried.append((n_speeds, reduction["modes_per_speed"]))
             table = pd.DataFrame({"mode": range(1, 9)}).assign(f_fe=1.0, f_fe_eq2=1.0, relative_error=0.0)
             errors = [1 + speed_law(*tried[-1]), reduced_model(*tried[-1])]
             table.loc[table["mode"] == mode, ["f_fe_eq2", "relative_error"]] = errors
             return types.SimpleNamespace(accuracy=table)
 
-        monkeypatch.setattr(refinement, "_reduce", reduce)
+        monkeypatch.setattr(refinement, "reduce", reduce)
         config = {"blade": {"length": 0.2}, "reduction": {"modes_per_speed": 6, "tolerance": tolerance}}
-        refinement.reduce_to_tolerance(lambda n_speeds: n_speeds, config, "", most_fit_speeds)
+        refinement.reduce_to_tolerance(lambda n_speeds: n_speeds, config, most_fit_speeds)
         return tried
 
     return search

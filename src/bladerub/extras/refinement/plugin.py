@@ -1,0 +1,3 @@
+"""A reduced blade with as many fit speeds and modes as a tolerance asks for."""
+
+REDUCTIONS = {"tolerance": "extras.refinement.tolerance"}

@@ -1,0 +1,47 @@
+"""The reduction of a discretised blade, with more fit speeds and modes where a tolerance asks for them."""
+
+import logging
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from bladerub.blade.accuracy import MODES, errors_by_mode
+from bladerub.blade.built import BuiltBlade
+from bladerub.blade.discrete import DiscreteBlade
+from bladerub.blade.reduction import reduce
+from bladerub.io.errors import BadInput
+
+log = logging.getLogger(__name__)
+
+MOST_FIT_SPEEDS = 7
+MOST_MODES_PER_SPEED = 30
+
+
+def reduce_to_tolerance(
+    discrete: Callable[[int], DiscreteBlade], config: Mapping[str, Any], most_fit_speeds: int | None
+) -> BuiltBlade:
+    """Reduce the blade that `discrete` gives for a number of fit speeds, at most `most_fit_speeds`.
+
+    The largest relative error of the first `MODES` frequencies at the accuracy speeds must be below
+    ``reduction.tolerance``. While eq. (2) alone has more than half of what is allowed, one fit speed is
+    added, else two modes at each speed. If that is not enough, a BadInput states the error that is reached.
+    """
+    reduction, most = dict(config["reduction"]), most_fit_speeds or MOST_FIT_SPEEDS
+    tolerance = reduction["tolerance"]
+    while True:
+        n_speeds, n_modes = reduction.get("fit_speeds", 3), reduction["modes_per_speed"]
+        built = reduce(discrete(n_speeds), config, reduction)
+        errors = errors_by_mode(built.accuracy)[:MODES].max()
+        log.info("%d fit speeds, %d modes at each: error %.3g", n_speeds, n_modes, errors.reduced_model)
+        if errors.reduced_model <= tolerance:
+            return built
+        if errors.speed_law > tolerance / 2 and n_speeds < most:
+            reduction["fit_speeds"] = n_speeds + 1
+        elif n_modes < MOST_MODES_PER_SPEED:
+            reduction["modes_per_speed"] = n_modes + 2
+        else:
+            raise BadInput(
+                f"reduction.tolerance = {tolerance:g}: the reduced model comes to "
+                f"{errors.reduced_model:.2g} with {n_speeds} fit speeds and {n_modes} modes at each (eq. (2) "
+                f"alone to {errors.speed_law:.2g}); must be more, or lower reduction.f_omega_max or "
+                "reduction.rank_tolerance"
+            )

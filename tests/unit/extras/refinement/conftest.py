@@ -1,0 +1,1 @@
+from blade_fixtures import *  # noqa: F403 (fixtures)
