@@ -11,7 +11,8 @@ import scipy.linalg
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import casing, law
-from bladerub.contact.setup import time_step
+from bladerub.contact.modes import at_tip, tip_radii
+from bladerub.contact.setup import element_angle, element_area, running_clearance, time_step
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
 
@@ -38,9 +39,12 @@ def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarr
     """
     h, N, θ, ξ = time_step(blade, spec), spec.coating.n_elements, spec.coating.theta, spec.damping_ratio
     Ω = 2 * np.pi * spec.f_omega * blade.f1_hz
-    e_r, e_θ = _directions(blade)
-    r, R, φ, β, area, g_0 = _geometry(blade, spec)
-    element = law.element(spec.coating, area)
+    e_r, e_θ = np.split(at_tip(blade, np.eye(len(blade.mass))), 2)  # rows over the coordinates of eq. (6)
+    r, R = (radius[:, None] for radius in tip_radii(blade))  # of the nodes, and of curvature of their paths
+    φ = spec.casing.start_angle + np.arctan2(*blade.node_position.T[1:])[:, None]
+    β = element_angle(N)
+    g_0 = casing.gap(spec.casing, running_clearance(blade, spec)[:, None], β)
+    element = law.element(spec.coating, element_area(blade, spec)[:, None])
 
     # eq. (1), M u'' + D u' + K u + F = 0, in the coordinates of eq. (6); K by eq. (2), ξ alike in all modes
     M, K = blade.mass, blade.stiffness(spec.f_omega)
@@ -71,25 +75,3 @@ def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarr
         u, u_before = predicted + inverse @ force, u
         history[step] = np.concatenate([e_r @ u, e_θ @ u])
     return history, u_s
-
-
-def _directions(blade):
-    """Rows that take radial and tangential displacements of the tip from the coordinates of eq. (6)."""
-    rows = np.zeros((2, blade.n_interface, len(blade.mass)))
-    for j in range(blade.n_interface):
-        rows[:, j, 3 * j : 3 * j + 3] = blade.radial_direction[j], blade.tangential_direction[j]
-    return rows
-
-
-def _geometry(blade, spec):
-    """Radius, radius of curvature and angle of nodes; angle, area and g₀ of eq. (8) of their elements."""
-    x, y, z = blade.node_position.T[:, :, None]
-    r, φ = np.hypot(y, z), spec.casing.start_angle + np.arctan2(y, z)
-    outward = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1)[:, None]
-    edges = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])  # shares of the chord
-    n = spec.coating.n_elements
-    β = (np.arange(n) + 0.5) * 2 * np.pi / n
-    area = np.abs(np.diff(edges, axis=0)) * 2 * np.pi * r / n
-    leading, trailing = spec.clearance
-    clearance = leading + (trailing - leading) * (x - x[0]) / (x[-1] - x[0])
-    return r, r**2 / outward, φ, β, area, casing.gap(spec.casing, clearance, β)  # R by Meusnier
