@@ -13,8 +13,11 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``MEASURES``    what a run may be asked for besides itself, each with its module
 ``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`);
                 what the config says below one is in ``SECTIONS``
+``REDUCTIONS``  what reduces a blade to a tolerance, by that key of ``reduction`` of the config
 ``CASINGS``     casings that are no sum of nodal diameters, by the key of the config that describes them
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
+``VARIANTS``    what reads laws (``law``), and what imports the time loop again with another law of the
+                coating or for more nodes (``loop``): modules (`bladerub.contact.laws`)
 ``MOTIONS``     how the tip may move besides its nodes, by the key of the config (`bladerub.contact.motion`)
 ``ROWS``        what computes rows of blades, by the key of the config that describes them
 ``DATASETS``    what a run file may hold besides that of a single blade: a dictionary as of the store

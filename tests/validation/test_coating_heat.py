@@ -13,11 +13,12 @@ import pytest
 from scipy.special import erf
 
 from bladerub.contact.kernel.records import at_rest
-from bladerub.contact.laws import described_law, module_of
+from bladerub.contact.laws import module_of
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
 from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.laws import heating
 from bladerub.extras.passages.speed_sweep import simulate_sweep
 from bladerub.extras.passages.sweep_grid import SweepSpec

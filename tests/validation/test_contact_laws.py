@@ -12,9 +12,10 @@ import math
 import numpy as np
 import pytest
 
-from bladerub.contact.laws import described_law, module_of
+from bladerub.contact.laws import module_of
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
 
 E, K, UNIT, THICKNESS, AREA, VISCOSITY = 1.1, 0.5, 600e6, 6e-3, 1e-6, 1e4
 YIELD = 1e-3  # normalised

@@ -11,16 +11,15 @@ import numpy as np
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing
 from bladerub.contact.kernel import records
-from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight
+from bladerub.contact.kernel.free_flight import MOST_STEPS
 from bladerub.contact.kernel.loop import Simulation
-from bladerub.contact.laws import element_parameters, module_of, source_of
+from bladerub.contact.laws import element_parameters, module_for, module_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.motion import motion
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec
 from bladerub.contact.steps import own_steps, steps_per_element, with_steps
 from bladerub.contact.tip import edge
-from bladerub.contact.variants import module_for
 from bladerub.numerics.lanes import lanes_for
 from bladerub.numerics.memory import aligned
 
@@ -50,25 +49,25 @@ def set_up_modes(
     modes: Modes, blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE
 ) -> tuple[Recurrence, Simulation]:
     """Prepare a run as `set_up`, with the modes at its speed."""
-    law = module_of(spec.coating.element_law)
+    coating, law = spec.coating, module_of(spec.coating.element_law)
     contact, passage = _contact(blade, spec), element_passage(blade, spec)
     n_steps = _n_steps(modes, contact, blade, spec)
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, passage / n_steps, contact)
     tip = tip_record(blade, spec, seat)
     stator = stator_record(blade, spec, rule, seat)
-    state = _initial_state(modes, rule, spec, tip, _kept_by(law))
+    kernel = _kernel(modes.n_nodes, coating.element_law, spec.turns)
+    state = kernel("records").at_rest(rule.omega.size, coating.n_elements, _kept_by(law))
+    _deflect(state, modes, rule, spec, tip)
     state = state._replace(**seat.coating)
-    flight = _free_flight(rule, tip, n_steps)
-    kernel = partial(module_for, lanes_for(modes.n_nodes), law=source_of(spec.coating.element_law))
-    simulation = kernel("contact.kernel.loop").Simulation
+    slope = tip.search_range / float(np.min(tip.radius - tip.limit))
+    leap = n_steps // math.ceil(n_steps / MOST_STEPS)
+    flight = kernel("free_flight").free_flight(rule, leap, slope, edge(tip))
     layer = None
     if hasattr(law, "Layer"):
-        period = passage * spec.coating.n_elements
         area = _by_lane_of(blade)(element_area(blade, spec))
-        layer = law.Layer(law, spec.coating, area, period)
-    return rule, simulation(
-        kernel("contact.kernel.modal").pack(rule), flight, stator, tip, state, n_steps, layer
-    )
+        layer = law.Layer(law, coating, area, passage * coating.n_elements)
+    simulation = kernel("loop").Simulation
+    return rule, simulation(kernel("modal").pack(rule), flight, stator, tip, state, n_steps, layer)
 
 
 def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: ElementLaw = PLASTIC) -> None:
@@ -86,12 +85,16 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
     turning = zeros if tip_turns else np.empty(0)
     stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros, False, turning)
     tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
-    kernel = partial(module_for, lanes, law=source_of(law))
-    flight = kernel("contact.kernel.free_flight").free_flight(rule, 1, 0.0, 0.0)
-    state = kernel("contact.kernel.records").at_rest(1, 8, _kept_by(module_of(law)))
-    kernel("contact.kernel.loop").Simulation(
-        kernel("contact.kernel.modal").pack(rule), flight, aligned(stator), aligned(tip), state, 1
-    ).advance(np.zeros(8))
+    kernel = _kernel(n_nodes, law, tip_turns)
+    flight = kernel("free_flight").free_flight(rule, 1, 0.0, 0.0)
+    state = kernel("records").at_rest(1, 8, _kept_by(module_of(law)))
+    modal, simulation = kernel("modal").pack(rule), kernel("loop").Simulation
+    simulation(modal, flight, aligned(stator), aligned(tip), state, 1).advance(np.zeros(8))
+
+
+def _kernel(n_nodes: int, law: ElementLaw, turns: bool) -> Callable[[str], ModuleType]:
+    """Return what gives the modules of `bladerub.contact.kernel` for such a tip and law, by name."""
+    return lambda name: module_for(lanes_for(n_nodes), f"contact.kernel.{name}", law, turns)
 
 
 def _kept_by(law: ModuleType) -> int:
@@ -158,9 +161,10 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
         parameters = element_parameters(coating, area, rule.time_step)
     clearance = tuple(running_clearance(blade, spec).tolist())
     first, width = tuple(_first_element(blade, spec).tolist()), spec.tip.half_width + seat.ahead
-    gaps = _gaps(spec.casing, clearance, seat.longer, first, coating.n_elements, width, area.size)
+    gap, lowest = _gaps(spec.casing, clearance, seat.longer, first, coating.n_elements, width, area.size)
     stator = records.Stator(
-        **gaps._asdict(),
+        initial_gap=gap,
+        minimum_gap=lowest,
         law=parameters,
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
@@ -173,13 +177,6 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     return aligned(stator)
 
 
-class _Gaps(NamedTuple):
-    """Of `records.Stator`."""
-
-    initial_gap: np.ndarray
-    minimum_gap: np.ndarray
-
-
 @lru_cache(maxsize=32)  # the runs of a coating, and of most studies, have the same
 def _gaps(
     shape: Casing,
@@ -189,11 +186,12 @@ def _gaps(
     n_elements: int,
     half_width: float,
     lanes: int,
-) -> _Gaps:
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the gaps of `records.Stator`."""
     gap = casing.gap(shape, np.array(clearance)[:, None], element_angle(n_elements)) - longer
     rows = np.array([np.roll(of_node, -shift) for of_node, shift in zip(gap, first, strict=True)])
     unused = np.full((n_elements, lanes - len(rows)), _NEVER)
-    return aligned(_Gaps(np.hstack([rows.T, unused]), minimum_gap(rows, half_width)))
+    return np.hstack([rows.T, unused]), minimum_gap(rows, half_width)
 
 
 def minimum_gap(rows: np.ndarray, half_width: float) -> np.ndarray:
@@ -284,36 +282,25 @@ def _by_lane_of(blade: ReducedBlade) -> Callable[[np.ndarray], np.ndarray]:
     return partial(record_module.by_lane, n_nodes=blade.n_interface)
 
 
-def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> FreeFlight:
-    parts = math.ceil(steps_per_element / MOST_STEPS)
-    slope = tip.search_range / float(np.min(tip.radius - tip.limit))
-    flight_module = module_for(lanes_for(rule.n_nodes), "contact.kernel.free_flight")
-    return flight_module.free_flight(rule, steps_per_element // parts, slope, edge(tip))
-
-
-def _initial_state(
-    modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip, kept: int
-) -> records.State:
-    """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
+def _deflect(state: records.State, modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip) -> None:
+    """Deflect a blade in the first mode; the step before is the exact free motion back from there."""
+    if not spec.initial_displacement:
+        return
+    x, damping, n = rule.omega[0] * rule.time_step, spec.damping_ratio, rule.omega.size
+    damped = math.sqrt(1.0 - damping**2)
+    back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
+    state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
     record_module = module_for(lanes_for(rule.n_nodes), "contact.kernel.records")
-    state = record_module.at_rest(rule.omega.size, spec.coating.n_elements, kept)
-    if spec.initial_displacement:
-        x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
-        damped = math.sqrt(1.0 - damping**2)
-        back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
-        n = rule.omega.size
-        state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
-        displacement = state.q[:, :n] @ record_module.by_lane(rule.tip, rule.n_nodes).T
-        radial, tangential, *further = np.moveaxis(displacement.reshape(3, -1, tip.radius.size), 1, 0)
-        approach = np.hypot(tip.radius + radial, tangential) - tip.radius
-        if not max(np.abs(radial).max(), np.abs(tangential).max()) <= tip.limit:
-            raise ValueError(
-                f"initial_displacement = {spec.initial_displacement:g} m: moves a node of the tip beyond the "
-                f"displacement limit, {tip.limit:g} m"
-            )
-        moved = np.concatenate([radial, tangential, approach, *further], axis=1)
-        state.u[:, : moved.shape[1]] = moved
-    return state
+    displacement = state.q[:, :n] @ record_module.by_lane(rule.tip, rule.n_nodes).T
+    radial, tangential, *further = np.moveaxis(displacement.reshape(3, -1, tip.radius.size), 1, 0)
+    approach = np.hypot(tip.radius + radial, tangential) - tip.radius
+    if not max(np.abs(radial).max(), np.abs(tangential).max()) <= tip.limit:
+        raise ValueError(
+            f"initial_displacement = {spec.initial_displacement:g} m: moves a node of the tip beyond the "
+            f"displacement limit, {tip.limit:g} m"
+        )
+    moved = np.concatenate([radial, tangential, approach, *further], axis=1)
+    state.u[:, : moved.shape[1]] = moved
 
 
 def _self_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:

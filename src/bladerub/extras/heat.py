@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.laws import described_law
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, ElementLaw, RunSpec
+from bladerub.extras.law_reading import described_law
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
 

@@ -10,9 +10,7 @@ from bladerub.config import units
 from bladerub.config.fields import Form, Omitted, Section, Unit, disagreement
 from bladerub.config.keys import Key
 from bladerub.config.quantities import unknown
-from bladerub.contact.laws import parameters_of, source_of
-from bladerub.contact.spec import ElementLaw
-from bladerub.io.folders import study_folder
+from bladerub.extras.law_reading import parameters_in
 
 
 class Law(Section):
@@ -43,9 +41,7 @@ class Law(Section):
     def further_keys(cls, values: Mapping[str, Any]) -> dict[str, Key]:
         """Give the parameters of the law their units."""
         try:
-            file = values.get("file")
-            source = (study_folder() / file).read_text(encoding="utf-8") if file else ""
-            parameters = parameters_of(source or source_of(ElementLaw(values.get("name", "plastic"))))
+            parameters = parameters_in(values)
         except (OSError, ValueError, TypeError):  # which the law's own check says
             return {}
         return {name: Key("a number", unit=Unit(parameter.unit)) for name, parameter in parameters.items()}

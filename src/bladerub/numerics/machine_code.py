@@ -2,8 +2,7 @@
 
 Numba notices a change of the file that holds a cached function, but not of functions that it calls in
 other files: a run after an edit could use old code. The folder of the cache therefore carries a digest
-of all sources of the solver, one of what plugs into the loop, the number of lanes, and a digest of the law if
-it is not the usual one.
+of all sources of the solver, the number of lanes, and digests of what else is not the usual in the loop.
 """
 
 import os
@@ -17,7 +16,7 @@ from numba.extending import register_jitable
 
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import cache_folder
-from bladerub.io.sources import digest_behind, solver_digest
+from bladerub.io.sources import solver_digest
 from bladerub.numerics import lanes
 
 if numba.config.DISABLE_JIT:
@@ -57,9 +56,7 @@ def njit_on_disk(**options) -> Callable[[Callable], Callable]:
     def decorate(function: Callable) -> Callable:
         user_folder = numba.config.CACHE_DIR
         parent = Path(user_folder or (_BESIDE if os.access(_BESIDE.parent, os.W_OK) else cache_folder()))
-        instance = lanes.instance_name(lanes.LANES, lanes.LAW)
-        digest = f"{solver_digest()[:16]}-{digest_behind(*lanes.counterparts())[:8]}"
-        numba.config.CACHE_DIR = str(parent / f"machine-code-{digest}-{instance}")
+        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}-{lanes.INSTANCE}")
         try:
             compiled = numba.njit(**options)(function)
             compiled._cache = _Cache(function)  # as `cache=True` does with that of Numba

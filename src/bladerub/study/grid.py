@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 
 from bladerub import plugins
-from bladerub.contact.laws import described_law, parameters_of
+from bladerub.contact import laws
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec, TipProfile
-from bladerub.io.folders import study_folder
 from bladerub.study.casings import casing_spec
 
 SPEED_DECIMALS = 6
@@ -179,24 +178,9 @@ def modulus_unit(config: Mapping[str, Any]) -> float:
 def element_law(config: Mapping[str, Any]) -> ElementLaw:
     """Describe the law of the elements that the config names, by default plasticity with linear hardening.
 
-    Raises `ValueError`, which begins with the key, if a file cannot be read or is no law, or as
-    `bladerub.contact.laws.described_law`.
+    Raises `ValueError` as `bladerub.contact.laws.element_law`.
     """
-    values = dict(config["contact"].get("law", {}))
-    name, file = values.pop("name", PLASTIC.name), values.pop("file", None)
-    if file is None:
-        return described_law(name, values)
-    path = study_folder() / file
-    if not path.is_file():
-        raise ValueError(f"file = {file}: there is no such file ({path})")
-    try:
-        source = path.read_text(encoding="utf-8")
-        if not source:  # which would stand for a law of the package
-            raise ValueError("is empty")
-        parameters_of(source)
-    except ValueError as error:  # that of a text in another encoding is one
-        raise ValueError(f"file = {file}: {error}") from error
-    return described_law(path.stem, values, source)
+    return laws.element_law(config["contact"].get("law", {}))
 
 
 def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> RunSpec:

@@ -9,9 +9,9 @@ from dataclasses import replace
 import pandas as pd
 
 from bladerub.contact.illustration import loading_cycle
-from bladerub.contact.laws import described_law
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.plots.law_cycles import law_cycles
 from bladerub.workflow import outputs
 

@@ -5,9 +5,9 @@ import pytest
 
 from bladerub.contact.casing import gap, shape
 from bladerub.contact.illustration import loading_cycle, pressed_elements
-from bladerub.contact.laws import described_law
 from bladerub.contact.spec import Casing, Coating, TipProfile
 from bladerub.contact.tip import coverage, highest, relief
+from bladerub.extras.law_reading import described_law
 
 TWO = Casing("2nd", (2,), (1.0,), 1e-3, 0.36e-3, 0.0)
 

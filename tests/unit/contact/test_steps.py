@@ -7,10 +7,10 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from bladerub.contact import setup
-from bladerub.contact.laws import described_law
 from bladerub.contact.modes import Modes, mode_shapes_at, modes_at
 from bladerub.contact.schemes import Contact
 from bladerub.contact.steps import BOUNCE, PASSAGE, STABLE_PART, bounce, steps_per_element
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.turning.motion import further
 
 MASS, STIFFNESS = 1e-3, 2e7

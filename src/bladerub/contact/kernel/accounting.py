@@ -3,7 +3,6 @@
 from bladerub.contact import energy
 from bladerub.contact.gap import closest_position, normal, normal_approach, rotation_distance
 from bladerub.contact.kernel import elements
-from bladerub.contact.kernel.composition import composed
 from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import add_to, add_to_number, address_of, load, store
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, maximum, where
@@ -22,8 +21,8 @@ def update_coating(modal, stator, tip, travel, per_step, state, u, u_before):
         shape = elements.rigid_surface(stator, position_before) - elements.rigid_surface(stator, position)
         supplied = 0.5 * (normal_force + load(state.normal_force, LANES)) * shape
     else:
-        placement = elements.Placement(position, elements.load_pose(modal, u))
-        before = elements.Placement(position_before, elements.load_pose(modal, u_before))
+        placement = elements.Placement(position, elements.load_pose(u))
+        before = elements.Placement(position_before, elements.load_pose(u_before))
         stored, loss, supplied, worn = elements.update_wear(modal, stator, tip, state, placement, before)
         add_to(state.ledger, energy.WORN * LANES, worn)
     store(state.moment, 0, (0.0 - factor) * normal_force * (load(tip.lever, 0) + approach))
@@ -48,8 +47,8 @@ def _note_sliding(stator, state, normal_force, factor, advance, per_step):
         add_to_number(state.ledger, energy.REVERSED * LANES, 1.0)
 
 
-@composed
-def add_work(modal, stator, tip, angle, state, u_after, u, u_before):
+@inlined
+def add_work(stator, tip, angle, state, u_after, u, u_before):
     """Add the work of the forces at `u`, over half of the path from the step before to the step after.
 
     The blade rotates by `angle` (rad) in a step.

@@ -22,7 +22,7 @@ def predict_sliding(modal, state, q, q_before, angle):
     exponential scheme on the steps before and after, of which the mean is meant. The blade rotates by `angle`
     (rad) in a step.
     """
-    sums = no_tip_displacement(modal)
+    sums = no_tip_displacement()
     for k in range(0, modal.n, LANES):
         present, before = load(q, k), load(q_before, k)
         if modal.corrects:
@@ -30,7 +30,7 @@ def predict_sliding(modal, state, q, q_before, angle):
         else:
             increment = 0.5 * (load(modal.now, k) * present - load(modal.before, k) * before - before)
         sums = add_tip_displacement(modal, k, increment, sums)
-    sliding = tip_displacement(modal, sums)
+    sliding = tip_displacement(sums)
     store(state.free_sliding, 0, sliding.radial)
     store(state.free_sliding, LANES, sliding.tangential)
     store(state.free_sliding, 2 * LANES, broadcast(angle))
@@ -43,7 +43,7 @@ def mobilise(modal, stator, tip, state, normal_radial, normal_tangential, approa
     copy(state.force, frictionless, 3 * LANES)
     store(frictionless, 0, stator.normal_factor * normal_radial * normal_force)
     store(frictionless, LANES, stator.normal_factor * normal_tangential * normal_force)
-    free = displacement_of_nodes(modal, load(state.free_sliding, 0), load(state.free_sliding, LANES))
+    free = displacement_of_nodes(load(state.free_sliding, 0), load(state.free_sliding, LANES))
     moved = displaced(modal, modal.mobility, frictionless, free)
     rotation = rotation_distance(tip, load(state.free_sliding, 2 * LANES), approach)
     sliding = rotation + normal_radial * moved.tangential - normal_tangential * moved.radial

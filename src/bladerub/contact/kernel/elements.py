@@ -7,7 +7,6 @@ import numpy as np
 
 from bladerub.contact import law
 from bladerub.contact.gap import is_above, penetration
-from bladerub.contact.kernel.composition import composed
 from bladerub.contact.tip import coverage, relief
 from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import add_to, load, load_fields, store
@@ -28,23 +27,17 @@ NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
 
 
-class Pose(NamedTuple):
-    """How the profile of each node is to the casing."""
-
-    approach: np.ndarray  # Vector, m
-
-
 class Placement(NamedTuple):
     """Where the profiles are on the casing."""
 
     position: np.ndarray  # Of the nodes, a vector, in rows
-    pose: Pose
+    pose: np.ndarray
 
 
 class Linearisation(NamedTuple):
     """What the elements under each node answer near a pose; vectors."""
 
-    pose: Pose
+    pose: np.ndarray  # How each profile is to the casing: approach of its node, m
     force: np.ndarray  # N
     stiffness: np.ndarray  # N/m
     # Change of depth over which the force is linear, m: no element comes into contact, begins to flow or to
@@ -52,35 +45,35 @@ class Linearisation(NamedTuple):
     valid: np.ndarray
 
 
-@composed
-def pose_of(modal, approach, displacement):
+@inlined
+def pose_of(approach, displacement):
     """Pose of the profiles at a displacement of the tip, by which the nodes approach the casing."""
-    return Pose(approach)
+    return approach
 
 
-@composed
-def load_pose(modal, u):
+@inlined
+def load_pose(u):
     """Pose at a displacement that was stored (`bladerub.contact.kernel.modal.store_tip`)."""
-    return Pose(load(u, 2 * LANES))
+    return load(u, 2 * LANES)
 
 
-@composed
-def approach_at(modal, pose, offset):
+@inlined
+def approach_at(pose, offset):
     """Approach of the profile to the casing at `offset` elements from the node, m, without its relief."""
-    return pose.approach
+    return pose
 
 
-@composed
-def motion_at(modal, pose, before, offset, advance, lowering):
+@inlined
+def motion_at(pose, before, offset, advance, lowering):
     """Split what a profile comes closer by between two poses: by the blade, and by the rotation, m.
 
     The second is the `lowering` of the profile over an element, which it passes by `advance` elements.
     """
-    return pose.approach - before.approach, lowering
+    return pose - before, lowering
 
 
-@composed
-def is_clear(modal, tip, radial, tangential, approach, u, minimum_gap):
+@inlined
+def is_clear(tip, radial, tangential, approach, u, minimum_gap):
     """Whether the tip surely touches nothing: its closest profile is above the lowest surface in reach.
 
     `u` is the displacement as it was stored.
@@ -135,14 +128,14 @@ def press(element, stator, tip, state, row, offset, approach):
     return force, stiffness, linear
 
 
-@composed
-def no_linearisation(modal, pose):
+@inlined
+def no_linearisation(pose):
     """Give one that holds nowhere."""
     return Linearisation(pose, broadcast(0.0), broadcast(0.0), broadcast(-1.0))
 
 
-@composed
-def linearise(modal, stator, tip, state, position, rows, pose):
+@inlined
+def linearise(stator, tip, state, position, rows, pose):
     """Press the elements under each node by its profile, and sum up what they answer."""
     element = load_fields(law.Element, stator.law)
     force, stiffness, valid = broadcast(0.0), broadcast(0.0), broadcast(math.inf)
@@ -150,7 +143,7 @@ def linearise(modal, stator, tip, state, position, rows, pose):
     for row in range(first, last + 1):
         offset = (row + 0.5) - position
         share = coverage(tip, offset)
-        force_here, slope, linear = press(element, stator, tip, state, row, offset, pose.approach)
+        force_here, slope, linear = press(element, stator, tip, state, row, offset, pose)
         force = force + share * force_here
         stiffness = stiffness + share * slope
         valid = minimum(valid, linear)
@@ -184,8 +177,8 @@ def update_wear(modal, stator, tip, state, placement, before):
         share, share_before = coverage(tip, offset), coverage(tip, offset + advance)
         lowering = slope * offset + constant  # of the profile over this element, in the step
         worn = load(state.wear, entry)
-        closer, lowering = motion_at(modal, placement.pose, before.pose, offset, advance, lowering)
-        approach = approach_at(modal, placement.pose, offset)
+        closer, lowering = motion_at(placement.pose, before.pose, offset, advance, lowering)
+        approach = approach_at(placement.pose, offset)
         depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
         deeper = closer + lowering
         force, increment = law.return_mapping(element, depth, worn)

@@ -112,7 +112,7 @@ def fly(flight, modal, q, q1, q2):
     mean increment of node 1 (m); and the `bound` of the next flight (m).
     """
     loss = mean = reach = broadcast(0.0)
-    sums = no_tip_displacement(modal)
+    sums = no_tip_displacement()
     for k in range(0, modal.n, LANES):
         present = load(q, k)
         last, change = present - load(q1, k), present - load(q2, k)
@@ -130,7 +130,7 @@ def fly(flight, modal, q, q1, q2):
             reach + _form(flight, k, BOUND_Q) * absolute(x) + _form(flight, k, BOUND_D) * absolute(last_step)
         )
         sums = add_tip_displacement(modal, k, x, sums)
-    return tip_displacement(modal, sums), loss, lane_sum(mean), lane_sum(reach)
+    return tip_displacement(sums), loss, lane_sum(mean), lane_sum(reach)
 
 
 @inlined

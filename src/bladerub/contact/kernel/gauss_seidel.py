@@ -11,12 +11,11 @@ import numpy as np
 from bladerub.contact import law
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
-from bladerub.contact.kernel.composition import composed
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import LAYERED, rigid_surface, wrap
 from bladerub.contact.kernel.modal import ROWS
 from bladerub.contact.tip import coverage, relief
-from bladerub.numerics.machine_code import within
+from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
 from bladerub.numerics.vectors import LANES
 
@@ -37,7 +36,7 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
     force, normal_force = state.force, state.normal_force
     position, surface = state.scratch, address_of(state.scratch, 2 * LANES)
     approaches, turned = address_of(state.scratch, 4 * LANES), address_of(state.scratch, 6 * LANES)
-    rows = width(modal)
+    rows = width()
     for _ in range(MAX_SWEEPS):
         if not is_within_limit(tip, load(u, 0), load(u, LANES)):
             return True
@@ -52,7 +51,7 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
         for j in range(LANES):
             compliance, guess = _self_compliance(modal, stator, state, rows, j), read(normal_force, j)
-            further = further_of(modal, u, j)
+            further = further_of(u, j)
             store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
             free_approach = read(approaches, j) + compliance * guess
             if stator.is_rigid:
@@ -79,31 +78,31 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
                 by = read(turned, k) - read(force, k)
                 write(force, k, read(turned, k))
                 add_displacement(modal, u, rows * k, by)
-            change = max(change, further_change(modal, tip, u, j, further))
+            change = max(change, further_change(tip, u, j, further))
         if change <= tolerance:
             return converged
     return False
 
 
-@composed
-def width(modal):
+@inlined
+def width():
     """Coordinates of the tip."""
     return ROWS
 
 
-@composed
-def further_of(modal, u, j):
+@inlined
+def further_of(u, j):
     """Further coordinate of node `j`, which the search leaves as it is while it looks at this node."""
     return 0.0
 
 
-@composed
-def further_change(modal, tip, u, j, before):
+@inlined
+def further_change(tip, u, j, before):
     """Most that a change of the further coordinate moves the profile of node `j`, m."""
     return 0.0
 
 
-@composed
+@inlined
 def add_displacement(modal, u, row, by):
     """Add to a displacement what a change of one force makes, from `row` of the compliances on."""
     for i in range(0, ROWS, LANES):
@@ -128,7 +127,7 @@ def _force_on(modal, stator, tip, state, j, position, free_approach, further, co
     low, high = -np.inf, np.inf
     approach = free_approach - compliance * guess
     for _ in range(MAX_NODE_ITERATIONS):
-        force, stiffness = resistance(modal, stator, tip, state, j, position, approach, further, forces)
+        force, stiffness = resistance(stator, tip, state, j, position, approach, further, forces)
         residual = approach + compliance * force - free_approach
         if abs(residual) <= NODE_TOLERANCE:
             return force, True
@@ -142,8 +141,8 @@ def _force_on(modal, stator, tip, state, j, position, free_approach, further, co
     return force, False
 
 
-@composed
-def resistance(modal, stator, tip, state, j, position, approach, further, forces):
+@inlined
+def resistance(stator, tip, state, j, position, approach, further, forces):
     """Force (N) and stiffness (N/m) of the elements under node `j`, as `elements.linearise`.
 
     A counterpart enters the force along the further coordinate in `forces` (24,).

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bladerub import plugins
 from bladerub.contact.energy import DAMPING, STORED
 from bladerub.contact.gap import is_within_limit, normal_approach
 from bladerub.contact.kernel import free_flight
@@ -21,13 +20,9 @@ from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct, store_tip
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
-from bladerub.numerics.lanes import counterparts
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, where
-
-for _place in counterparts():  # counterparts of functions below
-    plugins.load(_place)
 
 NEGLIGIBLE = 1e-100
 """Modal coordinates below this are zero, m kg^1/2: numbers too small to be normal would slow the loop."""
@@ -84,32 +79,15 @@ class Simulation:
         `displacement` (n,) is filled with the radial displacement of node 1, mean over the passage of each
         element, m; n = N makes one revolution.
         """
-        if self.layer is None:
-            return self._integrate(displacement, first)
-        total = Progress(0, 0, 0, np.inf, -np.inf)
-        half = self.stator.n_elements // 2
-        for start in range(0, displacement.size, half):
-            part = displacement[start : start + half]
-            progress = self._integrate(part, first + start)
-            total = Progress(
-                *(a + b for a, b in zip(total[:3], progress[:3], strict=True)),
-                min(total.lowest, progress.lowest),
-                max(total.highest, progress.highest),
-            )
-            if progress.n_steps < part.size * self.steps_per_element:
-                break
-            first_row = first + start - half // 2  # far from where the tip is, at both ends
-            self.layer.rest(self.state, first_row, first_row + part.size)
-        return total
+        if self.layer is not None:
+            return self.layer.advance(self, displacement, first)
+        return self.integrate(displacement, first)
 
-    def _integrate(self, displacement: np.ndarray, first: int) -> Progress:
-        last = first + displacement.size
-        turns, _, _, n_steps, n_flights, n_contact, lowest, highest = integrate(
-            *self.records, self.steps_per_element, first, last, False, 0.0, displacement.ctypes.data
-        )
-        for rows in (self.state.q, self.state.u):  # the loop lets the three rows take turns
-            rows[:] = rows[(np.arange(3) - turns) % 3]
-        return Progress(n_steps, n_flights, n_contact, lowest, highest)
+    def integrate(self, displacement: np.ndarray, first: int) -> Progress:
+        """Integrate as `advance`, without what the law lets happen between passages."""
+        last, address = first + displacement.size, displacement.ctypes.data
+        _, _, *done = integrate(*self.records, self.steps_per_element, first, last, False, 0.0, address)
+        return Progress(*done)
 
 
 class Records(NamedTuple):
@@ -149,7 +127,7 @@ class Rows(NamedTuple):
 def _store_displacement(modal, tip, displacement, u):
     """Store a displacement of the tip and the approach of its nodes; return this."""
     approach = normal_approach(tip, displacement.radial, displacement.tangential)
-    store_tip(modal, u, displacement, approach)
+    store_tip(u, displacement, approach)
     return approach
 
 
@@ -158,7 +136,7 @@ def _stays_clear(modal, flight, tip, u, reach, minimum_gap):
     """Whether a free flight in which no node approaches by more than `reach` surely touches nothing."""
     radial, tangential, approach = load(u, 0) - reach, load(u, LANES), load(u, 2 * LANES) + reach
     sideways = absolute(tangential) + flight.sideways * reach
-    return is_clear(modal, tip, radial, sideways, approach, u, minimum_gap)
+    return is_clear(tip, radial, sideways, approach, u, minimum_gap)
 
 
 @inlined
@@ -206,7 +184,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     if touching and modal.corrects:
         _store_displacement(modal, tip, correct(modal, state.force, rows.q_next), rows.u_next)
     if step.touched:
-        add_work(modal, stator, tip, step.angle, state, rows.u_next, rows.u, rows.u_before)
+        add_work(stator, tip, step.angle, state, rows.u_next, rows.u, rows.u_before)
         clear(address_of(state.normal_force, LANES), LANES)
     return True, touching
 
@@ -218,13 +196,25 @@ def _clear_negligible(q, n):
         store(q, k, where(absolute(x) > NEGLIGIBLE, x, 0.0))
 
 
+@within
+def _put_in_order(rows, n, turns):
+    """Bring three rows of `n` numbers, which have taken `turns`, in the order of `State`."""
+    for _ in range(turns % 3):
+        for k in range(n):
+            last = read(rows, 2 * n + k)
+            write(rows, 2 * n + k, read(rows, n + k))
+            write(rows, n + k, read(rows, k))
+            write(rows, k, last)
+
+
 @njit_on_disk(nogil=True)  # threads of one process integrate at the same time
 def integrate(
     modal, flight, stator, tip, state, steps_per_element, first, last, is_flying, reach, displacement
 ):
-    """Integrate elements `first` to `last`.
+    """Integrate elements `first` to `last`; `displacement` is the address of the mean of each.
 
-    A part that goes on gets `is_flying` and `reach` of the part before.
+    A part that goes on gets `is_flying` and `reach` of the part before. Returns these, then the fields of
+    `Progress`.
     """
     turns = n_flights = n_contact = 0
     bottom, top = np.inf, -np.inf
@@ -265,9 +255,7 @@ def integrate(
                 approach = _store_displacement(modal, tip, moved, u_next)
                 damping = damping + loss
                 step += 1
-                clear_of_casing = is_clear(
-                    modal, tip, moved.radial, moved.tangential, approach, u_next, minimum_gap
-                )
+                clear_of_casing = is_clear(tip, moved.radial, moved.tangential, approach, u_next, minimum_gap)
                 if touched or not clear_of_casing:
                     rotation = Step(touched, element + step * per_step, per_step, angle)
                     rows = Rows(q, q_next, u_before, u, u_next)
@@ -275,8 +263,10 @@ def integrate(
                     if not within:
                         copy(q, q_next, modal.n)  # the damping loss is complete up to here
                         add_to(state.ledger, DAMPING * LANES, damping)
+                        _put_in_order(state.q, modal.n, turns)
+                        _put_in_order(state.u, 4 * LANES, turns)
                         n_steps = turns + n_flights * flight.n_steps
-                        return turns, is_flying, reach, n_steps, n_flights, n_contact, bottom, top
+                        return is_flying, reach, n_steps, n_flights, n_contact, bottom, top
                     n_contact += touching
                 node_1, node_1_before = read(u_next, 0), read(u, 0)
                 mean += 0.5 * (node_1_before + node_1)
@@ -288,16 +278,7 @@ def integrate(
     add_to(state.ledger, DAMPING * LANES, damping)
     if not (touched or touching):  # the last step added nothing
         clear(address_of(state.ledger, STORED * LANES), 4 * LANES)
+    _put_in_order(state.q, modal.n, turns)
+    _put_in_order(state.u, 4 * LANES, turns)
     n_steps = turns + n_flights * flight.n_steps
-    return turns, is_flying, reach, n_steps, n_flights, n_contact, bottom, top
-
-
-@within
-def take_turns(rows, n, turns):
-    """Bring three rows of `n` numbers in order, which the loop has let take `turns`."""
-    for _ in range(turns % 3):
-        for k in range(n):
-            last = read(rows, 2 * n + k)
-            write(rows, 2 * n + k, read(rows, n + k))
-            write(rows, n + k, read(rows, k))
-            write(rows, k, last)
+    return is_flying, reach, n_steps, n_flights, n_contact, bottom, top

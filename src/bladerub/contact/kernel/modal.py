@@ -4,7 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.contact.kernel.composition import composed
 from bladerub.contact.kernel.records import by_lane
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.machine_code import inlined
@@ -100,19 +99,19 @@ def advance_free(modal, q, q1, q2):
     Returns the displacement of the tip, and the damping loss of the step before, spread over the lanes (J):
     its end is known only now.
     """
-    loss, sums = broadcast(0.0), no_tip_displacement(modal)
+    loss, sums = broadcast(0.0), no_tip_displacement()
     for k in range(0, modal.n, LANES):
         x, modal_loss = _recur(modal, k, q, q1, q2)
         loss = loss + modal_loss
         store(q2, k, x)
         sums = add_tip_displacement(modal, k, x, sums)
-    return tip_displacement(modal, sums), loss
+    return tip_displacement(sums), loss
 
 
 @inlined
 def advance_forced(modal, force, q, q1, q2):
     """Move the modes as `advance_free`, under the contact forces (24,) of the step before."""
-    loss, forces = broadcast(0.0), spread_forces(modal, force)
+    loss, forces = broadcast(0.0), spread_forces(force)
     for k in range(0, modal.n, LANES):
         x, modal_loss = _recur(modal, k, q, q1, q2)
         loss = loss + modal_loss
@@ -123,7 +122,7 @@ def advance_forced(modal, force, q, q1, q2):
 @inlined
 def correct(modal, force, q):
     """Add the effect of contact forces (24,) to the modal coordinates; return the displacement of the tip."""
-    forces = spread_forces(modal, force)
+    forces = spread_forces(force)
     for k in range(0, modal.n, LANES):
         store(q, k, load(q, k) + load(modal.gain, k) * modal_force(modal, k, forces))
     return _project(modal, q)
@@ -140,64 +139,64 @@ def _recur(modal, k, q, q1, q2):
 
 @inlined
 def _project(modal, q):
-    sums = no_tip_displacement(modal)
+    sums = no_tip_displacement()
     for k in range(0, modal.n, LANES):
         sums = add_tip_displacement(modal, k, load(q, k), sums)
-    return tip_displacement(modal, sums)
+    return tip_displacement(sums)
 
 
-@composed
-def spread_forces(modal, force):
+@inlined
+def spread_forces(force):
     """Each contact force in all lanes of a vector, for `modal_force`."""
     return broadcast_each(force)
 
 
-@composed
+@inlined
 def modal_force(modal, k, forces):
     """Force on the modes from mode k on."""
     return sum_of_products(address_of(modal.tip, ROWS * k), forces)
 
 
-@composed
-def no_tip_displacement(modal):
+@inlined
+def no_tip_displacement():
     """Give the sums, one for each coordinate of the tip, to which `add_tip_displacement` adds."""
     return no_sums()
 
 
-@composed
+@inlined
 def add_tip_displacement(modal, k, x, sums):
     """Add what the modes `x`, from mode k on, displace at the tip."""
     return add_products(sums, address_of(modal.tip, ROWS * k), x)
 
 
-@composed
-def tip_displacement(modal, sums):
+@inlined
+def tip_displacement(sums):
     """Displacement of the tip from the sums: the interface rows of eq. (6)."""
     radial, tangential = halves(sums)
     return Displacement(lane_sums(radial), lane_sums(tangential))
 
 
-@composed
-def displacement_of_nodes(modal, radial, tangential):
+@inlined
+def displacement_of_nodes(radial, tangential):
     """Displacement of the tip where only its nodes move."""
     return Displacement(radial, tangential)
 
 
-@composed
-def store_tip(modal, u, displacement, approach):
+@inlined
+def store_tip(u, displacement, approach):
     """Store a displacement of the tip and the approach of its nodes to the casing (m) in `u` (32,)."""
     store(u, 0, displacement.radial)
     store(u, LANES, displacement.tangential)
     store(u, 2 * LANES, approach)
 
 
-@composed
-def load_tip(modal, u):
+@inlined
+def load_tip(u):
     """Load a displacement of the tip that was stored."""
     return Displacement(load(u, 0), load(u, LANES))
 
 
-@composed
+@inlined
 def move_tip(modal, k, change, u):
     """Add to a stored displacement what a `change` of mode k alone makes of it."""
     block, lane = k // LANES, k % LANES
@@ -206,7 +205,7 @@ def move_tip(modal, k, change, u):
         add_to_number(u, row, by * change)
 
 
-@composed
+@inlined
 def displaced(modal, response, force, free):
     """Add to the displacement `free` what contact forces (24,) cause, a row of `response` for each."""
     radial, tangential = free

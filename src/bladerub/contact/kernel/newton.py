@@ -14,9 +14,8 @@ import numpy as np
 from bladerub.contact.energy import FALLBACK, UNCONVERGED
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach
-from bladerub.contact.kernel.composition import composed
 from bladerub.contact.kernel.coulomb import mobilise
-from bladerub.contact.kernel.elements import Pose, linearise, no_linearisation, pose_of, rows_under
+from bladerub.contact.kernel.elements import approach_at, linearise, no_linearisation, pose_of, rows_under
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import Displacement, displaced, load_tip, store_tip
 from bladerub.numerics.machine_code import inlined
@@ -51,46 +50,46 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
     forces of the step before is the first guess. `coulomb` is a constant where this is compiled into the
     loop. Returns whether the displacement is within the limit.
     """
-    free = load_tip(modal, u)
-    start = moved = add_response(modal, free, state.response)
-    geometry = _geometry(tip, start, travel)
-    pose = loaded = pose_of(modal, geometry.approach, start)
-    linear = no_linearisation(modal, pose)
+    free = load_tip(u)  # u₀
+    start = moved = add_response(free, state.response)
+    geometry = _geometry(tip, start, travel)  # eq. (7)
+    pose = loaded = pose_of(geometry.approach, start)
+    linear = no_linearisation(pose)
     converged = False
     tried = not stator.is_rigid and is_within_limit(tip, start.radial, start.tangential)
     if tried:
         for _ in range(MAX_ITERATIONS):
-            if not all_lanes(distance(modal, tip, pose, linear.pose) <= linear.valid):
-                linear = linearise(modal, stator, tip, state, geometry.position, geometry.rows, pose)
-            moved = _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb)
+            if not all_lanes(distance(tip, pose, linear.pose) <= linear.valid):
+                linear = linearise(stator, tip, state, geometry.position, geometry.rows, pose)
+            moved = _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb)  # u₀ + C F
             more_radial = moved.radial - geometry.radial
             more_tangential = moved.tangential - geometry.tangential
-            loaded_approach = (
+            loaded_approach = (  # u · n of eq. (8)
                 geometry.approach
                 + geometry.normal_radial * more_radial
                 + geometry.normal_tangential * more_tangential
             )
-            loaded = pose_of(modal, loaded_approach, moved)
+            loaded = pose_of(loaded_approach, moved)
             is_straight = all_lanes(absolute(more_tangential) <= STRAIGHT)
-            if is_straight and all_lanes(distance(modal, tip, pose, loaded) <= TOLERANCE):
+            if is_straight and all_lanes(distance(tip, pose, loaded) <= TOLERANCE):  # r, eq. (9)
                 converged = True
                 break
-            pose = newton_step(modal, stator, linear, pose, loaded)
+            pose = newton_step(stator, linear, pose, loaded)
             if not is_straight:
                 if not is_within_limit(tip, moved.radial, moved.tangential):
                     break
                 geometry = _geometry(tip, moved, travel)
-                linear = no_linearisation(modal, pose)
+                linear = no_linearisation(pose)
     if converged:
-        store_tip(modal, u, moved, loaded.approach)
+        store_tip(u, moved, approach_at(loaded, 0.0))
     else:
         if tried:  # the iteration may have gone anywhere: begin again without forces
             clear(state.force, 3 * LANES)
             clear(state.normal_force, LANES)
         else:
-            store_tip(modal, u, start, geometry.approach)
+            store_tip(u, start, geometry.approach)
         moved = _by_sweeps(modal, stator, tip, travel, state, u)
-    store_response(modal, state.response, free, moved)
+    store_response(state.response, free, moved)
     return is_within_limit(tip, moved.radial, moved.tangential)
 
 
@@ -104,45 +103,45 @@ def _geometry(tip, displacement, travel):
     return Geometry(radial, tangential, approach, normal_radial, normal_tangential, position, rows)
 
 
-@composed
-def add_response(modal, free, response):
+@inlined
+def add_response(free, response):
     """Add to a displacement the `response` to forces as it was stored."""
     return Displacement(free.radial + load(response, 0), free.tangential + load(response, LANES))
 
 
-@composed
-def store_response(modal, response, free, moved):
+@inlined
+def store_response(response, free, moved):
     """Store by how much a displacement is further than without forces."""
     store(response, 0, moved.radial - free.radial)
     store(response, LANES, moved.tangential - free.tangential)
 
 
-@composed
-def distance(modal, tip, pose, other):
+@inlined
+def distance(tip, pose, other):
     """Most that two poses are apart for any point of each profile, m."""
-    return absolute(pose.approach - other.approach)
+    return absolute(pose - other)
 
 
-@composed
-def newton_step(modal, stator, linear, pose, loaded):
+@inlined
+def newton_step(stator, linear, pose, loaded):
     """Return the next pose, from the one under its forces: the nodes are taken by themselves."""
-    residual = pose.approach - loaded.approach
-    return Pose(pose.approach - residual / (1.0 + load(stator.self_compliance, 0) * linear.stiffness))
+    return pose - (pose - loaded) / (1.0 + load(stator.self_compliance, 0) * linear.stiffness)
 
 
-@composed
-def answer(modal, stator, state, linear, pose):
+@inlined
+def answer(stator, state, linear, pose):
     """Force N of the elements under each node at a pose, by their linearisation."""
-    return linear.force + linear.stiffness * (pose.approach - linear.pose.approach)
+    return linear.force + linear.stiffness * (pose - linear.pose)
 
 
 @inlined
 def _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb):
     """Put the forces of the elements at a pose on the blade; return the displacement under them."""
-    normal_force = answer(modal, stator, state, linear, pose)
+    normal_force = answer(stator, state, linear, pose)
     store(state.normal_force, 0, normal_force)
     if coulomb:
-        mobilise(modal, stator, tip, state, geometry.normal_radial, geometry.normal_tangential, pose.approach)
+        approach = approach_at(pose, 0.0)
+        mobilise(modal, stator, tip, state, geometry.normal_radial, geometry.normal_tangential, approach)
         factor = load(state.tangential_factor, 0)
     else:
         factor = broadcast(stator.tangential_factor)
@@ -162,6 +161,6 @@ def _by_sweeps(modal, stator, tip, travel, state, u):
         add_to_number(state.ledger, FALLBACK * LANES, 1.0)
     if not converged:
         add_to_number(state.ledger, UNCONVERGED * LANES, 1.0)
-    moved = load_tip(modal, u)
+    moved = load_tip(u)
     store(u, 2 * LANES, normal_approach(tip, moved.radial, moved.tangential))
     return moved

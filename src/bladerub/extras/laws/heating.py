@@ -19,6 +19,7 @@ import scipy  # its parts when they are used: every call of snakemake imports th
 from bladerub.contact.spec import Coating
 
 if TYPE_CHECKING:
+    from bladerub.contact.kernel.loop import Progress, Simulation
     from bladerub.contact.kernel.records import State
     from bladerub.contact.spec import ElementLaw
 
@@ -52,6 +53,19 @@ class Layer:
         self.decay = rate * period
         per_heat = np.sqrt(self.capacity[:HEATED]) / np.sum(self.capacity[:HEATED])
         self.pulse = per_heat @ self.shapes[:HEATED]  # what 1 J/m² adds to the modes
+
+    def advance(self, simulation: "Simulation", displacement: np.ndarray, first: int) -> "Progress":
+        """Integrate as `Simulation.advance`; the elements that the tip has left rest each half turn."""
+        half, parts = simulation.stator.n_elements // 2, []
+        for start in range(0, displacement.size, half):
+            part = displacement[start : start + half]
+            parts.append(simulation.integrate(part, first + start))
+            if parts[-1].n_steps < part.size * simulation.steps_per_element:
+                break
+            first_row = first + start - half // 2  # far from where the tip is, at both ends
+            self.rest(simulation.state, first_row, first_row + part.size)
+        *counts, lowest, highest = zip(*parts, strict=True)
+        return type(parts[0])(*map(sum, counts), min(lowest), max(highest))
 
     def rest(self, state: "State", first: int, last: int, turn: float = 1.0) -> None:
         """Let the rows `first` to `last`, which a tip has passed, be until the next one comes.

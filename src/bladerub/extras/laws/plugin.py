@@ -11,3 +11,5 @@ LAWS = {
     "thermal": "extras.laws.thermal",
     "viscoplastic": "extras.laws.viscoplastic",
 }
+VARIANTS = {"law": "extras.law_reading"}
+NEEDS = ("variants",)

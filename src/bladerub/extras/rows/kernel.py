@@ -12,7 +12,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from bladerub.contact.kernel.loop import Progress, Simulation, integrate, take_turns
+from bladerub.contact.kernel.loop import Progress, Simulation, integrate
 from bladerub.contact.kernel.modal import move_tip
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import address_of, place_at, read, write
@@ -168,7 +168,7 @@ def _integrate_row(
             if n_blades == 1 and not is_coupled:  # adds up what is summed as a single run does
                 together = min(n_elements - element, stator.n_elements - row)
             mean = displacement.ctypes.data + 8 * (n_elements * b + element)
-            turns, is_flying[b], reach[b], n_steps, n_flights, n_contact, lowest, highest = integrate(
+            is_flying[b], reach[b], n_steps, n_flights, n_contact, lowest, highest = integrate(
                 modal,
                 flight,
                 stator,
@@ -181,8 +181,6 @@ def _integrate_row(
                 reach[b],
                 mean,
             )
-            take_turns(state.q, modal.n, turns)
-            take_turns(state.u, 4 * LANES, turns)
             counts[b, 0] += n_steps
             counts[b, 1] += n_flights
             counts[b, 2] += n_contact

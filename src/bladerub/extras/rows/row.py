@@ -25,12 +25,11 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import History, Segment
 from bladerub.contact.kernel.records import COATING
-from bladerub.contact.laws import source_of
+from bladerub.contact.laws import module_for
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.run import run_result
 from bladerub.contact.setup import Seat, element_area, fixed_steps, set_up_modes
 from bladerub.contact.spec import RunSpec
-from bladerub.contact.variants import module_for
 from bladerub.extras.rows.kernel import Coupling, Rests, RowSimulation
 from bladerub.extras.rows.result import RowResult
 from bladerub.extras.rows.spec import Row, RowBlade
@@ -101,8 +100,8 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
         seats.append(_Seat(blade, spec, modes, row_blade, coating))
     apart, reach = _distances(blade, spec, seats)
     begins = [seat.first_clear() if len(seats) > 1 else 0 for seat in seats]
-    law = source_of(spec.coating.element_law)
-    kernel = module_for(lanes_for(blade.n_interface), "extras.rows.kernel", law)
+    lanes, law = lanes_for(blade.n_interface), spec.coating.element_law
+    kernel = module_for(lanes, "extras.rows.kernel", law, spec.turns)
     coupling = _coupling(spec, modes, row, seats)
     rests = Rests(apart, min(spec.coating.n_elements // 2, min(apart) - reach))
     simulation = kernel.RowSimulation(

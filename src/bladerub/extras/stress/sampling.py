@@ -16,7 +16,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import Segment, integrate
 from bladerub.contact.kernel import loop
-from bladerub.contact.kernel.loop import Progress, Simulation, take_turns
+from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import run_result
@@ -24,7 +24,6 @@ from bladerub.contact.setup import set_up_modes
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.machine_code import njit_on_disk
 from bladerub.numerics.memory import read
-from bladerub.numerics.vectors import LANES
 
 
 class SampledRun(NamedTuple):
@@ -119,7 +118,7 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
     n = rows.shape[1] - forces.size
     for part in range(len(rows)):
         first, last = ends[part], ends[part + 1]
-        turns, in_flight, bound, steps, flights, contacts, lowest, highest = loop.integrate(
+        in_flight, bound, steps, flights, contacts, lowest, highest = loop.integrate(
             modal,
             flight,
             stator,
@@ -132,8 +131,6 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
             bound,
             displacement + 8 * first,
         )
-        take_turns(state.q, modal.n, turns)
-        take_turns(state.u, 4 * LANES, turns)
         n_steps, n_flights, n_contact = n_steps + steps, n_flights + flights, n_contact + contacts
         low, high = min(low, lowest), max(high, highest)
         if steps < (last - first) * steps_per_element:

@@ -1,10 +1,11 @@
 """The functions of the time loop where the profile of the tip turns with the blade.
 
 Its tilt is a second unknown of each node, and the couple of the elements a second force. Each function takes
-the place of the one that its decorator names (`bladerub.contact.kernel.composition`).
+the place of the one that its decorator names (`bladerub.contact.motion`).
 """
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -13,9 +14,9 @@ from bladerub.contact import energy, law
 from bladerub.contact.gap import is_above
 from bladerub.contact.kernel import accounting, elements, gauss_seidel, newton
 from bladerub.contact.kernel import modal as modes
-from bladerub.contact.kernel.composition import in_place_of
 from bladerub.contact.kernel.modal import ROWS
 from bladerub.contact.tip import coverage, edge, highest
+from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import (
     add_lane_products,
     add_products,
@@ -51,6 +52,20 @@ WIDTH = ROWS + LANES
 """Coordinates of the tip: those of its nodes, then the tilt of each profile."""
 
 
+COUNTERPARTS: dict[Callable, Callable] = {}
+"""The functions below, each by that in whose place it is."""
+
+
+def in_place_of(function: Callable) -> Callable[[Callable], Callable]:
+    """Decorate the counterpart of a function of the loop, which has the same arguments."""
+
+    def decorate(counterpart: Callable) -> Callable:
+        COUNTERPARTS[function] = inlined(counterpart)
+        return counterpart
+
+    return decorate
+
+
 class Displacement(NamedTuple):
     """Of the tip; vectors."""
 
@@ -82,7 +97,7 @@ class Linearisation(NamedTuple):
 
 
 @in_place_of(modes.no_tip_displacement)
-def no_tip_displacement(modal):
+def no_tip_displacement():
     """Give sums for the nodes and for the tilt."""
     return no_sums(), no_lane_sums()
 
@@ -96,7 +111,7 @@ def add_tip_displacement(modal, k, x, sums):
 
 
 @in_place_of(modes.tip_displacement)
-def tip_displacement(modal, sums):
+def tip_displacement(sums):
     """Displacement and tilt from the sums."""
     of_nodes, of_tilt = sums
     radial, tangential = halves(of_nodes)
@@ -104,7 +119,7 @@ def tip_displacement(modal, sums):
 
 
 @in_place_of(modes.spread_forces)
-def spread_forces(modal, force):
+def spread_forces(force):
     """Each force, and each couple, in all lanes of a vector."""
     return broadcast_each(force), broadcast_lanes(address_of(force, COUPLE))
 
@@ -118,13 +133,13 @@ def modal_force(modal, k, forces):
 
 
 @in_place_of(modes.displacement_of_nodes)
-def displacement_of_nodes(modal, radial, tangential):
+def displacement_of_nodes(radial, tangential):
     """Displacement without a tilt."""
     return Displacement(radial, tangential, broadcast(0.0))
 
 
 @in_place_of(modes.store_tip)
-def store_tip(modal, u, displacement, approach):
+def store_tip(u, displacement, approach):
     """Store the tilt as well."""
     store(u, 0, displacement.radial)
     store(u, LANES, displacement.tangential)
@@ -133,7 +148,7 @@ def store_tip(modal, u, displacement, approach):
 
 
 @in_place_of(modes.load_tip)
-def load_tip(modal, u):
+def load_tip(u):
     """Load the tilt as well."""
     return Displacement(load(u, 0), load(u, LANES), load(u, TILT))
 
@@ -170,25 +185,25 @@ def displaced(modal, response, force, free):
 
 
 @in_place_of(elements.pose_of)
-def pose_of(modal, approach, displacement):
+def pose_of(approach, displacement):
     """Take the tilt of the displacement."""
     return Pose(approach, displacement.tilt)
 
 
 @in_place_of(elements.load_pose)
-def load_pose(modal, u):
+def load_pose(u):
     """Load the tilt as well."""
     return Pose(load(u, 2 * LANES), load(u, TILT))
 
 
 @in_place_of(elements.approach_at)
-def approach_at(modal, pose, offset):
+def approach_at(pose, offset):
     """Approach that is larger by the tilt."""
     return pose.approach + pose.tilt * offset
 
 
 @in_place_of(elements.motion_at)
-def motion_at(modal, pose, before, offset, advance, lowering):
+def motion_at(pose, before, offset, advance, lowering):
     """Count a change of tilt as work of the blade, and what the tilt lowers in passing as the rotation's."""
     middle = offset + 0.5 * advance
     closer = (pose.approach - before.approach) + (pose.tilt - before.tilt) * middle
@@ -196,7 +211,7 @@ def motion_at(modal, pose, before, offset, advance, lowering):
 
 
 @in_place_of(elements.is_clear)
-def is_clear(modal, tip, radial, tangential, approach, u, minimum_gap):
+def is_clear(tip, radial, tangential, approach, u, minimum_gap):
     """Look at the highest point of each profile, where the nodes are clear."""
     clear = is_above(tip, radial, tangential, approach, minimum_gap)
     if clear:  # most steps near the casing end before
@@ -205,14 +220,14 @@ def is_clear(modal, tip, radial, tangential, approach, u, minimum_gap):
 
 
 @in_place_of(elements.no_linearisation)
-def no_linearisation(modal, pose):
+def no_linearisation(pose):
     """Give one that holds nowhere."""
     zero = broadcast(0.0)
     return Linearisation(pose, zero, zero, broadcast(-1.0), zero, zero, zero)
 
 
 @in_place_of(elements.linearise)
-def linearise(modal, stator, tip, state, position, rows, pose):
+def linearise(stator, tip, state, position, rows, pose):
     """Sum up couple and moments as well."""
     element = load_fields(law.Element, stator.law)
     force, stiffness, valid = broadcast(0.0), broadcast(0.0), broadcast(math.inf)
@@ -235,7 +250,7 @@ def linearise(modal, stator, tip, state, position, rows, pose):
 
 
 @in_place_of(newton.add_response)
-def add_response(modal, free, response):
+def add_response(free, response):
     """Add to the tilt as well."""
     return Displacement(
         free.radial + load(response, 0),
@@ -245,7 +260,7 @@ def add_response(modal, free, response):
 
 
 @in_place_of(newton.store_response)
-def store_response(modal, response, free, moved):
+def store_response(response, free, moved):
     """Store that of the tilt as well."""
     store(response, 0, moved.radial - free.radial)
     store(response, LANES, moved.tangential - free.tangential)
@@ -253,13 +268,13 @@ def store_response(modal, response, free, moved):
 
 
 @in_place_of(newton.distance)
-def distance(modal, tip, pose, other):
+def distance(tip, pose, other):
     """Add what the edge of the profile is apart by the tilt."""
     return absolute(pose.approach - other.approach) + edge(tip) * absolute(pose.tilt - other.tilt)
 
 
 @in_place_of(newton.newton_step)
-def newton_step(modal, stator, linear, pose, loaded):
+def newton_step(stator, linear, pose, loaded):
     """Take approach and tilt of each node by themselves."""
     residual, tilt_residual = pose.approach - loaded.approach, pose.tilt - loaded.tilt
     return Pose(
@@ -269,7 +284,7 @@ def newton_step(modal, stator, linear, pose, loaded):
 
 
 @in_place_of(newton.answer)
-def answer(modal, stator, state, linear, pose):
+def answer(stator, state, linear, pose):
     """Put the couple of the elements on the blade as well."""
     closer, turned = pose.approach - linear.pose.approach, pose.tilt - linear.pose.tilt
     couple = linear.couple + linear.first_moment * closer + linear.second_moment * turned
@@ -281,19 +296,19 @@ def answer(modal, stator, state, linear, pose):
 
 
 @in_place_of(gauss_seidel.width)
-def width(modal):
+def width():
     """Count the tilts as well."""
     return WIDTH
 
 
 @in_place_of(gauss_seidel.further_of)
-def further_of(modal, u, j):
+def further_of(u, j):
     """Take the tilt."""
     return read(u, TILT + j)
 
 
 @in_place_of(gauss_seidel.further_change)
-def further_change(modal, tip, u, j, before):
+def further_change(tip, u, j, before):
     """Look at the edge of the profile."""
     return edge(tip) * abs(read(u, TILT + j) - before)
 
@@ -307,7 +322,7 @@ def add_displacement(modal, u, row, by):
 
 
 @in_place_of(gauss_seidel.resistance)
-def resistance(modal, stator, tip, state, j, position, approach, tilt, forces):
+def resistance(stator, tip, state, j, position, approach, tilt, forces):
     """Sum up the couple as well."""
     force = stiffness = couple = 0.0
     element = read_fields(law.Element, address_of(stator.law, j))
@@ -329,7 +344,7 @@ def resistance(modal, stator, tip, state, j, position, approach, tilt, forces):
 
 
 @in_place_of(accounting.add_work)
-def add_work(modal, stator, tip, angle, state, u_after, u, u_before):
+def add_work(stator, tip, angle, state, u_after, u, u_before):
     """Add the work of the couples as well."""
     more_radial, more_tangential = accounting.add_work_of_forces(state, u_after, u_before)
     more_tilt = 0.5 * (load(u_after, TILT) - load(u_before, TILT))

@@ -22,7 +22,7 @@ import numpy as np
 from bladerub.contact.laws import element_parameters, module_of
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import Coating, ElementLaw
-from bladerub.numerics.user_code import bounded
+from bladerub.extras.user_code import bounded
 
 TIME_STEPS = (1e-7, 1e-6, 1e-5)
 """Of the histories, s: those of runs, and ten times longer and shorter."""

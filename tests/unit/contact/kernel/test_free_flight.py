@@ -1,4 +1,5 @@
 from dataclasses import astuple
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -8,11 +9,11 @@ from numba import njit
 from bladerub.contact import energy
 from bladerub.contact.kernel import free_flight, modal
 from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.laws import module_for
 from bladerub.contact.modes import modes_at
 from bladerub.contact.schemes import SCHEMES, Contact
 from bladerub.contact.setup import set_up
 from bladerub.numerics.memory import address_of, addresses, aligned
-from bladerub.numerics.vectors import lane_sum
 
 STEPS = 7
 SLOPE = 0.02
@@ -24,21 +25,27 @@ class Flight(NamedTuple):
     u: np.ndarray
 
 
-@njit
-def flown(rule, flight, record):
-    q, n = record.q, rule.n
-    here = free_flight.bound(flight, n, q, address_of(q, n))
-    there, loss, mean, far = free_flight.fly(flight, rule, q, address_of(q, n), address_of(q, 2 * n))
-    modal.store_tip(rule, record.u, there, there.radial)
-    return lane_sum(loss), mean, far, here
+@cache
+def compiled(turns):
+    """Compile a free flight, and the loss that the next step enters."""
+    names = ("contact.kernel.free_flight", "contact.kernel.modal", "numerics.vectors")
+    free_flight, modal, vectors = (module_for(8, name, turns=turns) for name in names)
 
+    @njit
+    def flown(rule, flight, record):
+        q, n = record.q, rule.n
+        here = free_flight.bound(flight, n, q, address_of(q, n))
+        there, loss, mean, far = free_flight.fly(flight, rule, q, address_of(q, n), address_of(q, 2 * n))
+        modal.store_tip(record.u, there, there.radial)
+        return vectors.lane_sum(loss), mean, far, here
 
-@njit
-def next_loss(rule, record):
-    """Loss that the next step enters."""
-    q, n = record.q, rule.n
-    _, loss = modal.advance_free(rule, q, address_of(q, n), address_of(q, 2 * n))
-    return lane_sum(loss)
+    @njit
+    def next_loss(rule, record):
+        q, n = record.q, rule.n
+        _, loss = modal.advance_free(rule, q, address_of(q, n), address_of(q, 2 * n))
+        return vectors.lane_sum(loss)
+
+    return flown, next_loss
 
 
 @pytest.fixture(params=["exponential", "central_differences", "turning profile"])
@@ -76,6 +83,7 @@ def after_flight(scheme, q):
     padded = np.zeros((3, rule.n))
     padded[:, :n] = q
     record = aligned(Flight(padded, np.zeros(32)))
+    flown, _ = compiled(len(scheme.tip) > 16)
     given = flown(addresses(rule), addresses(flight), addresses(record))
     return rule, record, given
 
@@ -96,6 +104,7 @@ def test_free_flight_equals_its_single_steps(scheme, vibration):
     # a step enters the loss of the step before: the next one must find nothing left of the flight
     lost = np.sum(scheme.loss * (after[2:] - after[:-2]) ** 2)
     assert loss == pytest.approx(lost, rel=1e-10)
+    _, next_loss = compiled(len(scheme.tip) > 16)
     assert next_loss(addresses(rule), addresses(record)) == 0.0
 
 

@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 from contact_in_numpy import element_means
 
-from bladerub.contact.laws import described_law
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import PLASTIC
 from bladerub.extras.benchmark import plain
+from bladerub.extras.law_reading import described_law
 
 pytestmark = pytest.mark.slow
 

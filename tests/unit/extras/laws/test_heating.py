@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from bladerub.contact.kernel.records import at_rest
-from bladerub.contact.laws import described_law, module_of
+from bladerub.contact.laws import module_of
 from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.laws.heating import CELLS, HEATED, Layer, cell_heights
 
 THICKNESS, AREA, PERIOD = 5e-3, np.linspace(1e-6, 2e-6, 8), 0.02

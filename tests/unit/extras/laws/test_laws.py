@@ -6,19 +6,12 @@ import numpy as np
 import pytest
 
 from bladerub.contact import law
-from bladerub.contact.laws import (
-    NAMES,
-    described_law,
-    element_parameters,
-    law_digest,
-    module_of,
-    parameters_of,
-    source_of,
-)
+from bladerub.contact.laws import NAMES, element_parameters, law_digest, module_of, source_of
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law, parameters_of
 
 AREA, STEP, WORN = 1e-6, 1e-6, 1e-5
 THERMAL = described_law("thermal", LAYER | {"heated_depth": 5e-4, "softening_rise": 20.0})
@@ -161,7 +154,7 @@ def test_one_number_for_all_elements_is_repeated(one):
     "element", ["return Element(*(np.ones(3) for x in own))", "sys.exit(0)", "while True: pass"]
 )
 def test_what_is_no_parameters_is_refused(element, monkeypatch):
-    monkeypatch.setattr("bladerub.numerics.user_code.LONGEST_CALL", 0.5)
+    monkeypatch.setattr("bladerub.extras.user_code.LONGEST_CALL", 0.5)
     with pytest.raises(ValueError, match=r"^law own: "):
         element_parameters(coating(user_law(element)), AREAS)
 

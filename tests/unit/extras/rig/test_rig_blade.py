@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from bladerub.blade.tip import tip_radius
-from bladerub.contact.laws import described_law
 from bladerub.contact.setup import strip_width
 from bladerub.contact.spec import PLASTIC
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.rig import blade as elastic
 from bladerub.extras.rig.passes import simulate_passes
 from bladerub.extras.rig.spec import Rig

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bladerub.contact.laws import described_law
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.rig.passes import simulate_passes
 from bladerub.extras.rig.spec import Rig
 

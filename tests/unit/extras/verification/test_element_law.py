@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from bladerub.contact import law
-from bladerub.contact.laws import described_law
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.verification import element_law
 from bladerub.extras.verification.element_law import HISTORIES, TIME_STEPS, check_law
 

@@ -5,13 +5,13 @@ import sys
 import numpy as np
 import pytest
 
-from bladerub.contact import variants
+from bladerub.contact.laws import module_for
 
 
 def test_totals_of_sixteen_vectors():
     from numba import njit
 
-    wide, memory = (variants.module_for(16, f"numerics.{name}") for name in ("vectors", "memory"))
+    wide, memory = (module_for(16, f"numerics.{name}") for name in ("vectors", "memory"))
     a, out = np.random.default_rng(1).normal(size=(16, 16)), np.zeros(16)
 
     @njit
@@ -27,14 +27,13 @@ def test_totals_of_sixteen_vectors():
 
 ONE = """
 import sys
-from bladerub.contact import variants
-from bladerub.contact.laws import described_law, source_of
+from bladerub.contact.laws import element_law, module_for
 from bladerub.contact.setup import compile_kernel
 from bladerub.numerics.lanes import lanes_for
 values = {"viscosity": 1e4} if sys.argv[2] == "viscoplastic" else {}
-n_nodes, law = int(sys.argv[1]), described_law(sys.argv[2], values)
+n_nodes, law = int(sys.argv[1]), element_law({"name": sys.argv[2], **values})
 compile_kernel(n_nodes=n_nodes, law=law)
-loop = variants.module_for(lanes_for(n_nodes), "contact.kernel.loop", source_of(law))
+loop = module_for(lanes_for(n_nodes), "contact.kernel.loop", law)
 print(sum(loop.integrate.stats.cache_misses.values()))
 """
 
@@ -61,7 +60,7 @@ import dataclasses, sys
 sys.path.insert(0, "tests/unit")
 import stand_in
 from bladerub.extras.rows import kernel
-from bladerub.contact.laws import described_law
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Row
 from bladerub.contact.spec import PLASTIC

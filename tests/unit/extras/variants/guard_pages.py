@@ -13,14 +13,14 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[2]))
 import stand_in
 
-from bladerub.contact import variants
 from bladerub.contact.kernel import loop
-from bladerub.contact.laws import described_law, module_of, source_of
+from bladerub.contact.laws import module_for, module_of
 from bladerub.contact.run import simulate
 from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
 from bladerub.extras.rows import kernel as row
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Disk, Row
@@ -47,15 +47,15 @@ def guarded(array):
 
 def guard(law, n_nodes):
     """Let the modules of a law and width guard what they align, displacements and rows of addresses."""
-    width, source = lanes.lanes_for(n_nodes), source_of(law)
+    width = lanes.lanes_for(n_nodes)
     for name in (
         memory,
-        variants.module_for(width, "numerics.memory"),
-        _module(width, "numerics.memory", source),
+        module_for(width, "numerics.memory"),
+        module_for(width, "numerics.memory", law),
     ):
         name._aligned = guarded
-    for kernel in {_module(width, "contact.kernel.loop", source), loop}:
-        plain = kernel.Simulation._integrate
+    for kernel in {module_for(width, "contact.kernel.loop", law), loop}:
+        plain = kernel.Simulation.integrate
         if plain.__name__ != "within_guards":
 
             def within_guards(self, displacement, first, plain=plain):
@@ -64,14 +64,10 @@ def guard(law, n_nodes):
                 displacement[:] = own
                 return made
 
-            kernel.Simulation._integrate = within_guards
-    for kernel in {_module(width, "extras.rows.kernel", source), row}:
+            kernel.Simulation.integrate = within_guards
+    for kernel in {module_for(width, "extras.rows.kernel", law), row}:
         if kernel.rows_of.__name__ == "rows_of":
             kernel.rows_of = lambda records, plain=kernel.rows_of: guarded(plain(records))
-
-
-def _module(width, name, source):
-    return variants.module_for(width, name, source)
 
 
 def drawn_blade(rng, n_nodes):

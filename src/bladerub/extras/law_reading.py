@@ -1,0 +1,174 @@
+"""Reads laws of an abradable element beside that of the paper (`bladerub.contact.law`): modules or files.
+
+A law has the functions of `bladerub.contact.law` (docs/laws.md has the contract), and a dictionary
+`PARAMETERS` with unit, range and meaning of each parameter of its own. That is a literal: configs are checked
+by it without running the law. The time loop is compiled with the law in it
+(`bladerub.extras.variants`). Those that have a name plug in (``LAWS`` of `bladerub.plugins`).
+"""
+
+import ast
+import hashlib
+import math
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, NamedTuple
+
+from bladerub import plugins
+from bladerub.contact.laws import NAMES
+from bladerub.contact.spec import PLASTIC, ElementLaw
+from bladerub.io import sources
+from bladerub.io.folders import PACKAGE, study_folder
+
+CONTRACT = (
+    *("Element", "element", "return_mapping", "tangent", "elastic_force"),
+    *("stored_energy", "dissipated_energy"),
+)
+"""What the module of a law has for the program."""
+
+
+class Parameter(NamedTuple):
+    """A parameter of a law."""
+
+    unit: str
+    minimum: float
+    maximum: float
+    meaning: str
+
+
+def source_of(law: ElementLaw) -> str:
+    """Return the text of the module of a law; it is empty for that of the paper, which the loop has.
+
+    Raises `ValueError`, which names the law, if there is none of its name.
+    """
+    if law.source or law.name == PLASTIC.name:
+        return law.source
+    return _source_in_package(law.name)
+
+
+def law_digest(law: ElementLaw) -> dict[str, str]:
+    """Digest what loop and spec lack of a law: its module if it plugs in, and what it imports of extras."""
+    if not (law.source or law.name in plugins.offered("LAWS")):
+        return {}
+    source = source_of(law)
+    plugs_in = {} if law.source else {"law": hashlib.sha256(source.encode()).hexdigest()}
+    imported = [name for name in sources.imports_in(source) if name.startswith("extras.")]
+    return plugs_in | ({"law_imports": sources.digest_behind(*imported)} if imported else {})
+
+
+def element_law(entry: Mapping[str, Any]) -> ElementLaw:
+    """Describe the law of the block ``contact.law`` of a config.
+
+    Raises `ValueError`, which begins with the key, if a file cannot be read or is no law, or as
+    `described_law`.
+    """
+    values = dict(entry)
+    name, file = values.pop("name", PLASTIC.name), values.pop("file", None)
+    if file is None:
+        return described_law(name, values)
+    path = study_folder() / file
+    if not path.is_file():
+        raise ValueError(f"file = {file}: there is no such file ({path})")
+    try:
+        source = path.read_text(encoding="utf-8")
+        if not source:  # which would stand for a law of the package
+            raise ValueError("is empty")
+        parameters_of(source)
+    except ValueError as error:  # that of a text in another encoding is one
+        raise ValueError(f"file = {file}: {error}") from error
+    return described_law(path.stem, values, source)
+
+
+def parameters_in(entry: Mapping[str, Any]) -> Mapping[str, Parameter]:
+    """Return the parameters of the law of the block ``contact.law``; raises as `element_law`, or OSError."""
+    if entry.get("file"):
+        source = (study_folder() / entry["file"]).read_text(encoding="utf-8")
+    else:
+        source = source_of(ElementLaw(entry.get("name", PLASTIC.name)))
+    return parameters_of(source)
+
+
+@cache
+def parameters_of(source: str) -> Mapping[str, Parameter]:
+    """Read the parameters of a law from the text of its module, which is not run.
+
+    Raises `ValueError` if it is no Python, lacks a part of `CONTRACT` or its ``PARAMETERS`` are not as they
+    must be.
+    """
+    parameters: Mapping[str, Parameter] = {}
+    for node in _statements(source):
+        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == "PARAMETERS":
+            try:
+                parameters = {
+                    name: Parameter(*map(_plain, entry.elts)) for name, entry in _entries(node.value)
+                }
+            except (AttributeError, TypeError, ValueError, RecursionError, MemoryError) as error:
+                requirement = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
+                raise ValueError(f"PARAMETERS on line {node.lineno}: {requirement}") from error
+    names = _names_in(source)
+    if source and (missing := [name for name in CONTRACT if name not in names]):
+        raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
+    if "strength" in names and "Layer" not in names:
+        raise ValueError("has strength, but no Layer, which it is for")
+    return parameters
+
+
+def described_law(name: str, values: Mapping[str, Any], source: str = "") -> ElementLaw:
+    """Describe a law by its name, the values of its parameters and, if it is a user's own, its source.
+
+    Raises `ValueError`, which names the parameter, if one is missing, unknown or out of its range; and as
+    `parameters_of`.
+    """
+    rules = parameters_of(source_of(ElementLaw(name, (), source)))
+    for key, value in values.items():
+        if key not in rules:
+            has = f"this law has {', '.join(rules)}" if rules else "this law has no parameters of its own"
+            raise ValueError(f"{key} = {value}: unknown parameter, {has}")
+    settings = []
+    for parameter, rule in rules.items():
+        requirement = (
+            f"{rule.meaning}, must be a number from {rule.minimum:g} to {rule.maximum:g}, in {rule.unit}"
+        )
+        if parameter not in values:
+            raise ValueError(f"{parameter}: missing, {requirement}")
+        value = values[parameter]
+        is_number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        if not is_number or not rule.minimum <= value <= rule.maximum:
+            raise ValueError(f"{parameter} = {value}: {requirement}")
+        settings.append((parameter, float(value)))
+    return ElementLaw(name, tuple(settings), source)
+
+
+@cache
+def _source_in_package(name: str) -> str:
+    place = plugins.offered("LAWS").get(name)
+    if place is None:
+        raise ValueError(f"name = {name}: must be one of {', '.join(NAMES)}")
+    return PACKAGE.joinpath(*place.split(".")).with_suffix(".py").read_text(encoding="utf-8")
+
+
+def _statements(source: str) -> list[ast.stmt]:
+    try:
+        return ast.parse(source).body
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise ValueError(f"is no Python ({error or 'nested too deeply'})") from error
+
+
+def _names_in(source: str) -> set[str]:
+    """Names that a module defines or imports at its top."""
+    names = set()
+    for node in _statements(source):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            names.add(node.name)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            names |= {alias.asname or alias.name for alias in node.names}
+        elif isinstance(node, ast.Assign):
+            names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
+    return names
+
+
+def _entries(node: Any) -> list[tuple[str, Any]]:
+    return [(ast.literal_eval(key), value) for key, value in zip(node.keys, node.values, strict=True)]
+
+
+def _plain(node: ast.expr) -> Any:
+    return ast.literal_eval(node)
