@@ -1,0 +1,39 @@
+import pytest
+
+from bladerub.contact.spec import PLASTIC
+from bladerub.extras import law_reading
+from bladerub.study import grid
+from bladerub.study.grid import CoatingCase
+
+LAW = """
+from bladerub.contact.law import (
+    Element, dissipated_energy, elastic_force, element, return_mapping, stored_energy, tangent
+)
+PARAMETERS = {"slope": ("Pa", 0.0, 10.0, "a slope")}
+"""
+
+
+@pytest.fixture
+def with_law(config, monkeypatch, tmp_path):
+    """Make a config with a law, in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(law_reading, "study_folder", lambda: tmp_path)
+    return lambda **law: {**config, "contact": {**config["contact"], "law": law}}
+
+
+def test_the_law_of_the_elements_is_plastic_unless_the_config_names_another(config, with_law):
+    case = CoatingCase("2nd", 1.1, 0.5, 0.0)
+    wanted = grid.run_spec(config, case, 0.2)
+    assert wanted == grid.run_spec(with_law(name="plastic"), case, 0.2)
+    assert wanted.coating.element_law == PLASTIC
+    other = with_law(name="viscoplastic", viscosity=1e4)
+    assert grid.run_spec(other, case, 0.2).coating.element_law.parameters == (("viscosity", 1e4),)
+    assert grid.run_spec(other, CoatingCase.rigid("2nd", 0.1), 0.2).coating.element_law == PLASTIC
+
+
+def test_the_content_of_a_law_in_a_file_is_part_of_the_run(with_law, tmp_path):
+    (tmp_path / "mine.py").write_text(LAW, encoding="utf-8")
+    found = grid.element_law(with_law(file="mine.py", slope=2.0))
+    assert (found.name, found.parameters, found.source) == ("mine", (("slope", 2.0),), LAW)
+    (tmp_path / "mine.py").write_text(LAW + "# edited\n", encoding="utf-8")
+    assert grid.element_law(with_law(file="mine.py", slope=2.0)) != found
