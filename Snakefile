@@ -69,7 +69,7 @@ include: "src/rules/blade.smk"
 include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
-include: "src/rules/documents.smk"
+include: "src/rules/images.smk"
 
 
 # Outputs of rules of studies that `all` makes as well, by rule
@@ -97,6 +97,3 @@ rule all:
         FIGURES,
         JUDGED,
         list(ADDED_TO_ALL.values()),
-
-
-include: "src/rules/crate.smk"

@@ -9,7 +9,7 @@ CRATE = {
 
 rule crate:
     input:
-        rules.all.input,
+        lambda wildcards: rules.all.input,  # which is read after this file
     output:
         f"{RESULTS}/study.crate.zip",
     log:
@@ -18,4 +18,4 @@ rule crate:
         results=RESULTS,
         folders=CRATE,
     script:
-        "../scripts/crate.py"
+        "scripts/crate.py"

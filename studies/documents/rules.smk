@@ -1,0 +1,32 @@
+# What the pages are made from, all committed: reference of the config and its schema, tables that pages quote. Not part
+# of `all`.
+
+
+rule config_reference:
+    input:
+        config="config/config.yaml",
+        settings=[
+            path.relative_to(ROOT).as_posix()
+            for path in ROOT.glob("src/bladerub/**/settings.py")
+        ],
+        page="docs/config_keys.py",
+        writing=files_behind("config.keys"),
+    output:
+        reference="docs/config.md",
+        schema="config/schema.json",
+    log:
+        f"{RESULTS}/logs/config_reference.log",
+    script:
+        "scripts/config_reference.py"
+
+
+# Without an output: it takes snapshots anew whenever it is asked for, those of the pages of studies/ as well
+rule docs_data:
+    input:
+        lambda wildcards: rules.all.input,  # which is read after this file
+    log:
+        f"{RESULTS}/logs/docs_data.log",
+    params:
+        results=RESULTS,
+    script:
+        "scripts/docs_data.py"
