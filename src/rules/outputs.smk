@@ -67,12 +67,12 @@ def drawn(name, category, with_data=False):
     return files | data
 
 
-def drawn_together(names, category):
-    """The files of figures with data that one job draws, each by the name of its figure and its kind."""
+def drawn_together(names, category, with_data=True):
+    """The files of figures that one job draws, each by the name of its figure and its kind."""
     return {
         f"{name}_{kind}": file
         for name in names
-        for kind, file in drawn(name, category, with_data=True).items()
+        for kind, file in drawn(name, category, with_data).items()
     }
 
 

@@ -118,28 +118,6 @@ rule chart_stress:
         "scripts/chart_stress.py"
 
 
-rule chart_ridge:
-    input:
-        manifests=chart_manifests,
-        analysing=files_behind(
-            "extras.chart.table",
-            "extras.chart.ridge",
-            "extras.chart.explanation",
-            "study.peaks",
-        ),
-    output:
-        **described(
-            table=f"{TABLES}/chart_ridge.csv",
-            summary=f"{TABLES}/chart_ridge_summary.csv",
-        ),
-    log:
-        f"{RESULTS}/logs/chart_ridge.log",
-    params:
-        peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
-    script:
-        "scripts/chart_ridge.py"
-
-
 rule chart_maps:
     # one job, because to start it takes longer than to draw one
     input:
@@ -166,90 +144,64 @@ rule chart_maps:
         "scripts/chart_maps.py"
 
 
-rule chart_safe:
-    input:
-        tables=chart_with_stress,
-        analysing=files_behind("extras.chart.choice", "extras.chart.stress"),
-        drawing=files_behind("extras.plots.chart_moduli", "plots.titles"),
-    output:
-        **drawn("chart_safe", "Choice of a coating"),
-    log:
-        f"{RESULTS}/logs/chart_safe.log",
-    params:
-        dpi=DPI,
-        modulus_unit=modulus_unit(config),
-        limits=config["chart"]["limits"],
-    script:
-        "scripts/chart_safe.py"
-
-
-rule chart_pareto:
-    input:
-        tables=chart_with_stress,
-        analysing=files_behind("extras.chart.choice", "extras.chart.stress"),
-        drawing=files_behind("extras.plots.chart_pareto", "plots.titles"),
-    output:
-        **drawn("chart_pareto", "Choice of a coating"),
-        **described(table=f"{TABLES}/chart_pareto.csv"),
-    log:
-        f"{RESULTS}/logs/chart_pareto.log",
-    params:
-        dpi=DPI,
-        limits=config["chart"]["limits"],
-    script:
-        "scripts/chart_pareto.py"
-
-
 rule chart_choice:
+    # what the limits leave: a map, the front of the best coatings, and one to recommend
     input:
         tables=chart_with_stress,
         analysing=files_behind("extras.chart.choice", "extras.chart.stress"),
+        drawing=files_behind(
+            "extras.plots.chart_moduli", "extras.plots.chart_pareto", "plots.titles"
+        ),
     output:
-        **described(table=f"{TABLES}/chart_choice.csv"),
+        **drawn_together(
+            ["chart_safe", "chart_pareto"], "Choice of a coating", with_data=False
+        ),
+        **described(
+            pareto=f"{TABLES}/chart_pareto.csv", choice=f"{TABLES}/chart_choice.csv"
+        ),
     log:
         f"{RESULTS}/logs/chart_choice.log",
     params:
+        dpi=DPI,
+        modulus_unit=modulus_unit(config),
         limits=config["chart"]["limits"],
     script:
         "scripts/chart_choice.py"
 
 
-rule chart_explanation:
+rule chart_peaks:
+    # ridges of the peaks, and what their heights and speeds follow
     input:
         manifests=chart_manifests,
+        blade=rules.blade.output.reduced_model,
         analysing=files_behind(
-            "extras.chart.table", "extras.chart.explanation", "study.peaks"
+            "extras.chart.table",
+            "extras.chart.ridge",
+            "extras.chart.explanation",
+            "extras.chart.stiffening",
+            "study.peaks",
         ),
         drawing=files_behind("extras.plots.chart_peaks", "plots.titles"),
     output:
-        **drawn("chart_explanation", "Choice of a coating"),
-        **described(table=f"{TABLES}/chart_explanation.csv"),
+        **drawn_together(
+            ["chart_explanation", "chart_stiffening"],
+            "Choice of a coating",
+            with_data=False,
+        ),
+        **described(
+            ridge=f"{TABLES}/chart_ridge.csv",
+            ridge_summary=f"{TABLES}/chart_ridge_summary.csv",
+            explanation=f"{TABLES}/chart_explanation.csv",
+            stiffening=f"{TABLES}/chart_stiffening.csv",
+        ),
     log:
-        f"{RESULTS}/logs/chart_explanation.log",
+        f"{RESULTS}/logs/chart_peaks.log",
     params:
         dpi=DPI,
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
         modulus_unit=modulus_unit(config),
     script:
-        "scripts/chart_explanation.py"
-
-
-rule chart_stiffening:
-    input:
-        peaks=rules.chart_explanation.output.table,
-        blade=rules.blade.output.reduced_model,
-        analysing=files_behind("extras.chart.stiffening"),
-        drawing=files_behind("extras.plots.chart_peaks", "plots.titles"),
-    output:
-        **drawn("chart_stiffening", "Choice of a coating"),
-        **described(table=f"{TABLES}/chart_stiffening.csv"),
-    log:
-        f"{RESULTS}/logs/chart_stiffening.log",
-    params:
-        dpi=DPI,
-        modulus_unit=modulus_unit(config),
-    script:
-        "scripts/chart_stiffening.py"
+        "scripts/chart_peaks.py"
 
 
 rule chart_placement:
@@ -292,13 +244,9 @@ rule chart_agreement:
 rule chart:
     input:
         rules.chart_table.output,
-        rules.chart_ridge.output,
         rules.chart_maps.output,
-        rules.chart_safe.output,
-        rules.chart_pareto.output,
         rules.chart_choice.output,
-        rules.chart_explanation.output,
-        rules.chart_stiffening.output,
+        rules.chart_peaks.output,
 
 
 localrules:

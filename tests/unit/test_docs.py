@@ -20,7 +20,7 @@ LINK = re.compile(r"\]\(([^)#]*)(?:#([^)]*))?\)")
 HEADING = re.compile(r"^#+ (.+)$", re.M)
 PATH = re.compile(r"(?<![\w/.])(?:src|tests|config|profiles)/[\w./-]*\w")
 NAME = re.compile(r"(?<![\w/.])bladerub(?:\.\w+)+")
-NOT_IN_GIT = {"src/bladerub/contact/__pycache__"}
+NOT_IN_GIT = {"src/bladerub/numerics/__pycache__"}
 TERM = re.compile(r"^\* .*\. (?P<code>`.+)$", re.M)
 
 

@@ -29,7 +29,6 @@ def chart_explanation(peaks: pd.DataFrame, unit: float) -> Figure:
     The ridge is the points of the greatest Y_k for each E; the column of the E at which it is highest runs
     across it. E = 1 is `unit`, Pa.
     """
-    peaks = peaks.dropna(subset=["amplitude"])
     groups = list(peaks.groupby(["order", "theta"]))
     labels = {
         "E_T": _tangent_modulus(unit),
@@ -40,7 +39,7 @@ def chart_explanation(peaks: pd.DataFrame, unit: float) -> Figure:
     rows = figure.subplots(len(groups), len(labels), sharey="row", sharex="col", squeeze=False)
     for row, ((order, theta), points) in zip(rows, groups, strict=True):
         for axes, column in zip(row, labels, strict=True):
-            _draw(axes, points, column)
+            _draw(axes, points.dropna(subset=["amplitude"]), column)
         row[0].set_ylabel(f"$Y_{{{order}}}$ (mm)")
         row[0].set_title(rf"$\theta$ = {theta:g} rad", fontsize=8)
     for axes, label in zip(rows[-1], labels.values(), strict=True):
@@ -50,6 +49,9 @@ def chart_explanation(peaks: pd.DataFrame, unit: float) -> Figure:
 
 
 def _draw(axes: Axes, points: pd.DataFrame, column: str) -> None:
+    if points.empty:
+        axes.text(0.5, 0.5, "no coating has a peak", transform=axes.transAxes, ha="center", fontsize=8)
+        return
     ridge = points.loc[points.groupby("E").amplitude.idxmax()].sort_values("E")
     top = ridge.loc[ridge.amplitude.idxmax()]
     across = points[points.E == top.E].sort_values("K")
@@ -86,7 +88,9 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) ->
             axes.plot(stiffened.E_T, stiffened.f_peak, **marks, mec="none", label=label)
             axes.plot(others.E_T, others.f_peak, **marks | {"mfc": "none", "color": GREY})
         axes.axhline(of_order.f_crossing.mean(), color=GREY, lw=0.9, ls="--", label="crossing with $C_1$")
-        axes.set(xscale="log", xlabel=_tangent_modulus(unit), ylabel=f"$f_{{{order}}}$")
+        if of_order.f_peak.notna().any():
+            axes.set_xscale("log")
+        axes.set(xlabel=_tangent_modulus(unit), ylabel=f"$f_{{{order}}}$")
         axes.set_title(titles.panel(index, f"eo({order})"), pad=38)
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), fontsize=7, borderaxespad=0.1)
         axes.grid(True)

@@ -51,6 +51,13 @@ def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, blade, draws
     np.testing.assert_array_equal(other.get_ydata(), [0.28] * 3)
 
 
+def test_a_chart_without_any_peak_is_drawn(chart, blade, draws):
+    peaks = chart.assign(order=4, f_crossing=0.29, E_T=chart.E, f_peak=np.nan, amplitude=np.nan)
+    peaks = peaks.assign(wear_per_cycle=np.nan, lobes=np.nan)
+    draws(chart_explanation(peaks, 6e8))
+    draws(chart_stiffening(peaks, stiffening.table(peaks, blade), 6e8))
+
+
 COATING = Coating(2.0, 0.5, 0.0, 0.0, modulus_unit=6e8, thickness=5e-3, n_elements=2000)
 
 

@@ -1,0 +1,21 @@
+"""Find the ridges of the chart, and what the heights and speeds of its peaks follow."""
+
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+from bladerub.blade.validation import read_reduced_blade
+from bladerub.extras.chart import explanation, ridge, stiffening
+from bladerub.extras.chart.table import read_points
+from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
+from bladerub.workflow import outputs
+
+points, unit = list(read_points(snakemake.input.manifests)), snakemake.params.modulus_unit
+ridges = ridge.table(snakemake.config, points)
+peaks = explanation.table(snakemake.config, points)
+speeds = stiffening.table(peaks, read_reduced_blade(snakemake.input.blade))
+outputs.save(
+    snakemake, ridge=ridges, ridge_summary=ridge.summary(ridges), explanation=peaks, stiffening=speeds
+)
+outputs.save(snakemake, chart_explanation(peaks, unit), "chart_explanation_")
+outputs.save(snakemake, chart_stiffening(peaks, speeds, unit), "chart_stiffening_")
