@@ -19,10 +19,8 @@ checks it. Editors that know YAML schemas complete keys and mark mistakes with
 Each line has a key, the value of the study, in parentheses what is allowed and the unit of a plain number,
 and the reason. f1 is the first frequency at rest, modulus_unit is `contact.modulus_unit`. `[]` stands for
 each entry of a list, `<name>` for any name. A section that `config/config.yaml` does not have, such as
-`chart`, belongs to a further study; a file may change it as any other.
-
-This page and `config/schema.json` are made from the models in `src/bladerub/config/models/` and the
-`settings.py` of extras by `snakemake -j1 docs/config.md`.
+`chart`, belongs to a further study; a file may change it as any other. A relative path is relative to the
+folder that Snakemake runs in.
 
 ## Units
 
@@ -40,10 +38,9 @@ coatings:
 |---|---|
 {units}
 
-* A speed in rpm is divided by the first frequency of the blade of the config, which is computed the first
-  time, in a few seconds, and kept. It is rounded to nine digits, so that it does not depend on the machine.
+* A speed in rpm is divided by the first frequency of the blade of the config, which is computed once.
 * Speeds of a study have six decimals, about 0.01 rpm. Each speed of a grid in rpm is rounded by itself, so
-  that `--f "5000 rpm"` is the run of a grid with 5000 rpm in it. `reduction.f_omega_max` is rounded up.
+  that `--f "5000 rpm"` is the run of a grid with 5000 rpm in it.
 * E, K and `contact.yield_stress` in Pa are divided by `contact.modulus_unit`. `contact.scale` multiplies
   plain numbers alone: a quantity with a unit is what it says.
 * A plan of rows of blades or rigs may have units, too; factors of a plan and what `sets` give them may not.

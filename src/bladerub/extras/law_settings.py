@@ -28,8 +28,8 @@ class Law(Section):
     file: Annotated[Omitted[str], Form("the path of a Python file that ends in .py")] = Field(
         None, pattern=r"^.+\.py$"
     )
-    """Instead of the name: a law of your own, which `bladerub check-law` checks. The loop is compiled with
-    it. Relative to the folder that Snakemake runs in. It is run, so read a file of somebody else first."""
+    """Instead of the name: a law of your own, which `bladerub check-law` checks. It is run, so read a file of
+    somebody else first."""
 
     @model_validator(mode="after")
     def _has_one_law(self) -> "Law":

@@ -48,8 +48,7 @@ class Analysis(Section):
         Unit("engine orders"),
         Limit("at most", "contact.elements", "there is one sample an element", divisor=2),
     ] = Field(ge=1, le=10000)
-    """Highest engine order kept. Covers C1 (order 50 at f_omega = 0.02) in the spectra; more only makes files
-    larger."""
+    """Highest engine order kept. Covers C1 (order 50 at f_omega = 0.02)."""
     peaks: Peaks
     divergence: Divergence
     lobe_prominence: Annotated[float, Unit("greatest worn depths")] = Field(gt=0, lt=1)
@@ -67,7 +66,6 @@ class Figures(Section):
     amplitude_range: Annotated[list[Annotated[Metre, Field(gt=0, le=1)]], ASCENDING] = Field(
         min_length=2, max_length=2
     )
-    """Colour scale of the spectrum figures, by the amplitude of the radial displacement of node 1: a
-    logarithmic one for Figs. 7 to 10, 15 and 16, so that they can be compared."""
+    """Logarithmic colour scale of all spectrum figures, so that they can be compared."""
     nominal_speed: Omitted[Annotated[float, Unit("1/min")]] = Field(None, gt=0, le=1e6)
     """Of the rotor: figures over the speed have a line there. None if not given."""

@@ -11,9 +11,9 @@ class Material(Section):
     """Ti-6Al-4V, usual for the front stages of a low-pressure compressor."""
 
     young_modulus: Pascal = Field(ge=1e8, le=1e12)
-    """Titanium alloy at room temperature; the range goes from plastics to ceramics."""
+    """At room temperature; the range goes from plastics to ceramics."""
     poisson_ratio: Number = Field(ge=0, le=0.49)
-    """Titanium alloy; at 0.5 the material would be incompressible and the elements lock."""
+    """At 0.5 the material would be incompressible and the elements lock."""
     density: Annotated[float, Unit("kg/m³")] = Field(ge=500, le=25000)
     """Titanium alloy."""
 
@@ -77,16 +77,15 @@ class Reduction(Section):
     """Number of speeds of the fit, evenly from 0 to f_omega_max. 3 if not given, those of eq. (3); with more,
     eq. (2) continues with the next even powers."""
     tolerance: Omitted[Number] = Field(None, ge=1e-5, le=0.5)
-    """Error allowed to the first six frequencies of the reduced model at the accuracy speeds; fit_speeds and
-    modes_per_speed are increased until it holds. If not given, they are not changed."""
+    """Error allowed to the first six frequencies of the reduced model at the accuracy speeds; if given,
+    fit_speeds and modes_per_speed are increased until it holds."""
     interface_nodes: Omitted[int] = Field(None, ge=4, le=32)
     """Nodes of the tip that may touch, from the leading to the trailing edge; the paper's 8 if not given.
     Matrices bring their own. What more of them change: docs/explanation/performance.md."""
     rank_tolerance: Number = Field(ge=1e-12, le=0.1)
     """Relative singular value below which a column of eq. (4) is linearly dependent on the others."""
     accuracy_speeds: int = Field(ge=2, le=200)
-    """Number of speeds of the accuracy table. Each costs one static equilibrium and one eigenvalue problem of
-    the full model. With 2 or 3 of them the error of eq. (2) is not known, which is exact at the speeds of its
-    fit."""
+    """Number of speeds of the accuracy table. With 2 or 3 of them the error of eq. (2) is not known, which is
+    exact at the speeds of its fit."""
     accuracy_modes: int = Field(ge=1, le=50)
     """Modes of the accuracy table. The paper shows seven that agree; ten show where agreement ends."""

@@ -121,10 +121,9 @@ Coatings = Annotated[
     Field(
         min_length=1,
         max_length=1000,
-        description="Each entry stands for all combinations of its E, K and theta, or of its coefficients "
-        "of friction: with theta the contact force has a constant direction, with friction it follows "
-        "Coulomb's law (studies/friction/README.md). An entry with the key `coating` is no abradable "
-        "layer but direct contact with the rigid casing.",
+        description="Each entry stands for all combinations of its values. With theta the contact force "
+        "has a constant direction, with friction it follows Coulomb's law (studies/friction/README.md). "
+        "An entry with the key `coating` is direct contact with the rigid casing.",
     ),
 ]
 Histories = Annotated[

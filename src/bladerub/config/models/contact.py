@@ -81,9 +81,8 @@ class AnyCasing(Section):
     interference: CasingInterference
     start_angle: StartAngle
     peak_orders: Omitted[EngineOrders] = None
-    """Instead of analysis.peaks.orders. If this is left out and the casing does not excite those, its peaks
-    are at the two lowest orders that a nodal diameter divides and whose speed window ends below the highest
-    speed."""
+    """Instead of analysis.peaks.orders. If it is left out and the casing does not excite those, its peaks are
+    at two other orders (docs/how-to/vary_the_study.md)."""
 
 
 class Casing(AnyCasing):

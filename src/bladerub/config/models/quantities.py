@@ -50,7 +50,7 @@ Friction = Annotated[
 Rigid = Annotated[
     Literal["rigid"],
     Form("rigid; an abradable coating has no such key"),
-    Field(description="Direct contact of blade and casing, the limit of E and K that grow together."),
+    Field(description="The limit of E and K that grow together."),
 ]
 DampingRatio = Annotated[
     Number,

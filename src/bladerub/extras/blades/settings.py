@@ -30,12 +30,9 @@ class Source(Section):
         None,
         pattern=r"^.+\.([iI][nN][pP]|[mM][sS][hH]|[vV][tT][uU]|[cC][sS][vV]|[tT][xX][tT]|[dD][aA][tT])$",
     )
-    """A mesh has hexahedra of 20 or 8 nodes or tetrahedra of 10 or 4, of one kind; a table has a row for each
-    station of a section (docs/how-to/bring_a_blade.md). A relative path is relative to the folder that
-    Snakemake runs in."""
+    """What it must hold: docs/how-to/bring_a_blade.md."""
     matrices: Annotated[Omitted[str], Form("the path of a folder")] = Field(None, pattern=r"^.+$")
-    """The folder holds mass, stiffness_rest, stiffness_half and stiffness_max (at rest, at half of
-    reduction.f_omega_max and at it), each as .mtx or .npz, and nodes.csv (docs/how-to/bring_a_blade.md)."""
+    """What it must hold: docs/how-to/bring_a_blade.md."""
     matrix_units: Annotated[
         Omitted[Literal["SI", "mm-tonne", "inch-lbf"]],
         Form("SI (kg, N/m), mm-tonne (t, N/mm) or inch-lbf (lbf s²/in, lbf/in)"),
@@ -48,16 +45,13 @@ class Source(Section):
         Omitted[Literal["m", "mm", "cm", "inch", "in", "feet", "ft"]],
         Form("m, mm, cm, inch (in) or feet (ft)"),
     ] = None
-    """Unit of length of the file, which does not say; m if not given. Everything else in the config stays in
-    SI units."""
+    """Of lengths in the file; m if not given."""
     angle_unit: Omitted[Literal["rad", "deg"]] = None
     """Of theta1 and theta2 of a table of sections; rad if not given."""
     rotation: Omitted[_Axis] = None
-    """The axis of the file, through its origin, about which the blade turns by the right-hand rule; -x if not
-    given, as for the parametric blade."""
+    """The axis of the file about which the blade turns by the right-hand rule; -x if not given."""
     downstream: Omitted[_Axis] = None
-    """Direction of the flow. Distinguishes the leading from the trailing edge; along the axis of rotation, x
-    if not given."""
+    """Direction of the flow, along the axis of rotation; x if not given."""
     radial: Omitted[_Axis] = None
     """The axis of the file from root to tip, z if not given."""
     root_set: Omitted[_NodeSet] = None
@@ -66,15 +60,13 @@ class Source(Section):
     tip_set: Omitted[_NodeSet] = None
     """The tip face; if not given, the surface farthest from the axis that looks away from it."""
     tip_cone: Omitted[Degree] = Field(None, ge=-45, le=45)
-    """Half angle of the flow path at the tip of the file, positive where the casing widens downstream; if not
-    given, of the cone that fits the tip best."""
+    """As blade.tip_cone; if not given, of the cone that fits the tip best."""
 
 
 class Scale(Section):
-    """Multiplies values that are for the blade of config/config.yaml.
+    """Factors of values that are for the blade of config/config.yaml.
 
-    E and K then mean the same on another blade. `bladerub import` prints it. It multiplies those of your own
-    files as well. Without it all values are absolute.
+    E and K then mean the same on another blade. `bladerub import` prints them.
     """
 
     length: Number = Field(ge=0.001, le=1000)

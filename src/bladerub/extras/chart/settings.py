@@ -27,8 +27,7 @@ _K += [0.73, 1, 1.3, 1.8, 2.4, 3.3, 5, 6, 8.1, 10, 15, 20]
 class ChartSpeeds(Section):
     """Of the speeds of the study, those nearest to these are run first.
 
-    Then the intervals next to the maxima of Y4, Y6 and the displacement are halved down to the speeds of the
-    study.
+    Then the intervals next to the maxima are halved.
     """
 
     start: Speed = Field(0.152, ge=0.001, le=2)
@@ -55,9 +54,8 @@ class Limits(Section):
     divergent_share: Number = Field(0.0, ge=0, le=1)
     """Of the evenly spaced speeds; none."""
     fatigue: Omitted[Pascal] = Field(None, gt=0, le=1e11)
-    """Greatest alternating stress of the blade, over the last revolutions of the runs at the peaks and at the
-    greatest displacement. If it is not given, the stress of the chart is not found. Not for a blade of
-    matrices."""
+    """Greatest alternating stress of the blade at the peaks and at the greatest displacement; not limited if
+    not given. Not for a blade of matrices."""
 
 
 class Chart(Section):
@@ -67,14 +65,13 @@ class Chart(Section):
     """
 
     minutes: Omitted[Annotated[float, Unit("min")]] = Field(None, gt=0, le=1e5)
-    """That the chart may take, from the first job to the last figure, by the forecast for the paper's blade
-    on chart.cores. If they are too few for the whole chart, it begins at speeds twice as far apart, and has
-    fewer E and K. No limit if not given."""
+    """That the chart may take by the forecast for the paper's blade on chart.cores. If they are too few, it
+    begins at speeds twice as far apart, and has fewer E and K. No limit if not given."""
     cores: Omitted[int] = Field(None, ge=1, le=1000)
     """Of these minutes: those of `snakemake -j`; 2 if not given."""
     casing: CasingName = "2nd"
     theta: Annotated[list[Theta], ASCENDING] = Field([0.0, 0.15], min_length=1, max_length=10)
-    """A chart for each; those of the paper."""
+    """A chart for each."""
     E: Annotated[list[YoungModulus], ASCENDING] = Field(_E, min_length=2, max_length=200)
     """The paper's 9 are among them, so that its 54 coatings are points of the chart."""
     K: Annotated[list[Annotated[Modulus, Field(gt=0, le=1e6)]], ASCENDING] = Field(

@@ -8,18 +8,14 @@ from bladerub.config.fields import Metre, Section, Seed
 
 
 class Ensemble(Section):
-    """The runs at the peaks of each coating with their neighbours in speed, repeated from other starts.
-
-    So are those that claims name: chaotic runs differ by 5 to 30 %. The bands in `peak_bands.csv` and
-    `run_bands.csv` and the shares in `claim_draws.csv` come from them (studies/ensembles/README.md).
-    """
+    """Runs at the peaks and of claims, repeated from other starts (studies/ensembles/README.md)."""
 
     members: int = Field(8, ge=0, le=1000)
     """So many starts of each run, besides the study's own; with 0 nothing is repeated, and there are no
     bands."""
     displacement: Metre = Field(1.0e-7, gt=0, le=1e-5)
-    """Largest one at the start, of node 1, radially, in the first mode. A start is drawn evenly between this
-    and its negative: far above rounding, far below the tolerance to which a blade tip is made."""
+    """Largest one at the start, of node 1, radially, in the first mode: far above rounding, far below the
+    tolerance to which a blade tip is made."""
     seed: Seed = 1
     """Another seed draws other starts."""
 

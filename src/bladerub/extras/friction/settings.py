@@ -27,8 +27,7 @@ FRICTION = Annotated[
     Field(
         default=[{"casing": "2nd", "E": [1.1, 2, 20], "K": [0.5], "theta": [0.15, 0.3]}],
         max_length=100,
-        description="Coatings that `snakemake friction` runs at all speeds, by a contact force of the "
-        "constant direction theta and by Coulomb friction of the coefficient tan(theta) "
+        description="Coatings that `snakemake friction` runs by both laws of friction "
         "(studies/friction/README.md). Each entry stands for all combinations; none need be in coatings.",
     ),
 ]

@@ -21,7 +21,7 @@ class Sweeps(Section):
     """
 
     coatings: Annotated[list[_Coating], UNIQUE] = Field([*_SWEPT, "2nd_rigid_mu0"], max_length=5000)
-    """By their names in paths. Those that the study does not have are left out, as in the figures."""
+    """Those that the study does not have are left out."""
     start: Speed = Field(0.14, gt=0, le=10)
     """Below all peaks of interest, so that the response to the first contact has decayed there."""
     stop: Omitted[
