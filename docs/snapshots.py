@@ -3,6 +3,7 @@
 import tempfile
 from pathlib import Path
 
+from bladerub import plugins
 from bladerub.io import tables
 
 COUNTED = {
@@ -106,12 +107,13 @@ def take(source: Path, target: Path) -> None:
         tables.copy(source, target)
         return
     table, origin = tables.read(source), tables.read_origin(source)
+    columns_files = plugins.files("columns.csv")
     for column, value in only.items():
         table = table[table[column] == value]
     if name in COUNTED:
         counted = table.groupby(COUNTED[name], as_index=False).size()
-        tables.write(target, counted.rename(columns={"size": "runs"}), origin)
+        tables.write(target, counted.rename(columns={"size": "runs"}), origin, None, columns_files)
     elif name in KEPT:
-        tables.write(target, table[[*KEPT[name]]], origin, float_format="%.4g")
+        tables.write(target, table[[*KEPT[name]]], origin, "%.4g", columns_files)
     else:
-        tables.write(target, table, origin)
+        tables.write(target, table, origin, None, columns_files)

@@ -66,6 +66,11 @@ def loaded(kind: str) -> dict[str, Any]:
     return {name: load(place) for name, place in offered(kind).items()}
 
 
+def files(name: str) -> list[Path]:
+    """Return the files of a name, such as ``columns.csv``, in the folders."""
+    return sorted(EXTRAS.glob(f"*/{name}"))
+
+
 def _plugins() -> Iterator[Any]:
     for path in sorted(EXTRAS.glob("*/plugin.py")):
         plugin = import_module(f"bladerub.extras.{path.parent.name}.plugin")

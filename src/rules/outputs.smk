@@ -18,9 +18,6 @@ CATEGORIES = {
             "Moduli of the coating",
             "Angle of the elements",
             "Claims",
-            "Sweeps and long runs",
-            "Cost",
-            "Choice of a coating",
         ],
         1,
     )
@@ -30,6 +27,8 @@ CAPTIONS = {path.stem: path.as_posix() for path in ROOT.glob("studies/**/report/
 
 def shown(path, name, category, title=None):
     """A file that the report shows; its name there is `title`, or the first line of its caption.
+
+    A study numbers categories of its own itself.
 
     The caption of a study is `report/<name>.rst` in its folder.
     """

@@ -128,7 +128,7 @@ rule chart_maps:
             shown(
                 f"{PLOTS}/chart_{name}.png",
                 PEAK_CAPTIONS.get(name, f"chart_{name}"),
-                "Choice of a coating",
+                "8. Choice of a coating",
                 title=f"Chart: {name}" if name in PEAK_CAPTIONS else None,
             )
             for name in CHARTED
@@ -154,7 +154,7 @@ rule chart_choice:
         ),
     output:
         **drawn_together(
-            ["chart_safe", "chart_pareto"], "Choice of a coating", with_data=False
+            ["chart_safe", "chart_pareto"], "8. Choice of a coating", with_data=False
         ),
         **described(
             pareto=f"{TABLES}/chart_pareto.csv", choice=f"{TABLES}/chart_choice.csv"
@@ -185,7 +185,7 @@ rule chart_peaks:
     output:
         **drawn_together(
             ["chart_explanation", "chart_stiffening"],
-            "Choice of a coating",
+            "8. Choice of a coating",
             with_data=False,
         ),
         **described(

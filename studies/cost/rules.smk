@@ -21,7 +21,7 @@ rule cost:
         drawing=files_behind("extras.cost.figure"),
     output:
         **described(table=f"{MEASURED}/cost.csv"),
-        png=shown(f"{MEASURED}/cost.png", "cost", "Cost"),
+        png=shown(f"{MEASURED}/cost.png", "cost", "7. Cost"),
         pdf=f"{MEASURED}/cost.pdf",
     log:
         f"{RESULTS}/logs/cost.log",

@@ -28,9 +28,11 @@ rule sweeps:
         analysing=files_behind("extras.passages.sweeps", "study.peaks"),
         drawing=files_behind("extras.plots.sweeps", "plots.titles"),
     output:
-        **drawn("sweeps", "Sweeps and long runs"),
+        **drawn("sweeps", "6. Sweeps and long runs"),
         **described(
-            table=shown(f"{TABLES}/sweeps.csv", "sweeps_table", "Sweeps and long runs")
+            table=shown(
+                f"{TABLES}/sweeps.csv", "sweeps_table", "6. Sweeps and long runs"
+            )
         ),
     log:
         f"{RESULTS}/logs/sweeps.log",
@@ -76,10 +78,10 @@ rule long_runs:
         analysing=files_behind("extras.passages.long_runs", "study.growth"),
         drawing=files_behind("extras.plots.long_runs", "plots.titles"),
     output:
-        **drawn("long_runs", "Sweeps and long runs"),
+        **drawn("long_runs", "6. Sweeps and long runs"),
         **described(
             table=shown(
-                f"{TABLES}/long_runs.csv", "long_runs_table", "Sweeps and long runs"
+                f"{TABLES}/long_runs.csv", "long_runs_table", "6. Sweeps and long runs"
             )
         ),
     log:

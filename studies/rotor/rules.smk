@@ -69,7 +69,9 @@ rule rotor_tables:
         analysing=files_behind("extras.rotor.summary"),
     output:
         **described(
-            table=shown(f"{TABLES}/rotor.csv", "rotor_table", "Sweeps and long runs"),
+            table=shown(
+                f"{TABLES}/rotor.csv", "rotor_table", "6. Sweeps and long runs"
+            ),
             half=f"{TABLES}/rotor_half.csv",
             draws=f"{TABLES}/rotor_draws.csv",
         ),
@@ -93,7 +95,7 @@ rule rotor_patterns:
         **described(
             table=f"{TABLES}/rotor_patterns.csv",
             drift=shown(
-                f"{TABLES}/rotor_drift.csv", "rotor_drift", "Sweeps and long runs"
+                f"{TABLES}/rotor_drift.csv", "rotor_drift", "6. Sweeps and long runs"
             ),
         ),
     log:
@@ -114,7 +116,7 @@ rule rotor_figure:
         plan=ROTOR,
         drawing=files_behind("extras.plots.rotor", "plots.titles"),
     output:
-        **drawn("rotor", "Sweeps and long runs"),
+        **drawn("rotor", "6. Sweeps and long runs"),
     log:
         f"{RESULTS}/logs/rotor_figure.log",
     params:
@@ -125,7 +127,7 @@ rule rotor_figure:
 
 use rule rotor_figure as rotor_sweeps_figure with:
     output:
-        **drawn("rotor_sweeps", "Sweeps and long runs"),
+        **drawn("rotor_sweeps", "6. Sweeps and long runs"),
     log:
         f"{RESULTS}/logs/rotor_sweeps_figure.log",
 

@@ -10,9 +10,9 @@ rule stress:
         analysing=files_behind("extras.stress.table"),
         drawing=files_behind("extras.plots.stress"),
     output:
-        **drawn("stress_peaks", "Sweeps and long runs"),
+        **drawn("stress_peaks", "6. Sweeps and long runs"),
         **described(
-            table=shown(f"{TABLES}/stress.csv", "stress", "Sweeps and long runs"),
+            table=shown(f"{TABLES}/stress.csv", "stress", "6. Sweeps and long runs"),
         ),
     log:
         f"{RESULTS}/logs/stress.log",

@@ -18,7 +18,7 @@ RUN_COLUMNS = [
     *("casing", "E", "K", "theta", "f_omega", "lobes", "worn_depth_share", "divergent"),
     *("reference_lobes", "reference_worn_depth_share", "reference_divergent"),
 ]
-"""Columns of the two tables, described in ``io/columns.csv``; ``reference_*`` are of the other study."""
+"""Columns of the two tables, described in ``columns.csv``; ``reference_*`` are of the other study."""
 
 
 def blades(built: Mapping[str, BuiltBlade]) -> pd.DataFrame:

@@ -2,8 +2,9 @@
 
 ``X.csv`` is for every program that reads CSV; ``X.csv-metadata.json`` says what its columns hold, in which
 units, where the table comes from, and the checksum of both (`bladerub.io.checksum`). A column means the same
-in every table: ``columns.csv`` in this folder lists them all, with unit ``1`` for a pure or normalised
-number, none for text. Its entry ``Yk`` is that of ``Y4`` and of every other engine order.
+in every table: ``columns.csv`` in this folder lists those of the study, with unit ``1`` for a pure or
+normalised number, none for text; who writes other tables lists theirs. An entry ``Yk`` is that of ``Y4`` and
+of every other engine order.
 """
 
 import csv
@@ -11,7 +12,7 @@ import io
 import json
 import re
 import shutil
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -34,16 +35,16 @@ def write(
     table: "pd.DataFrame",
     origin: Mapping[str, str],
     float_format: str | None = None,
-    columns_file: Path | None = None,
+    columns_files: Iterable[Path] = (),
 ) -> None:
     """Write `table` to `path`, without its index, and its description next to it.
 
     It has one observation a row; `origin` is from `bladerub.io.provenance.provenance`, `float_format` as of
     pandas. Raises `ValueError`, before anything is written, if a column is described neither in
-    `COLUMNS_FILE` nor in `columns_file`, of its form.
+    `COLUMNS_FILE` nor in one of `columns_files`, of its form.
     """
     path = Path(path)
-    described = described_columns() | (described_columns(columns_file) if columns_file else {})
+    described = described_columns(*columns_files)
     description = json.dumps(_description(path.name, table, described, origin), indent=2, ensure_ascii=False)
     content = table.to_csv(index=False, float_format=float_format, lineterminator="\n").encode()
     for file, text in (
@@ -108,9 +109,20 @@ def read_origin(path: str | Path) -> dict[str, str]:
     return {entry["schema:name"]: entry["schema:value"] for entry in description["dc:provenance"]}
 
 
+def described_columns(*columns_files: Path) -> dict[str, dict[str, Any]]:
+    """Return the description of every column by its `entry`, as "CSV on the Web" has it.
+
+    Those in `COLUMNS_FILE` come before those of the other files.
+    """
+    return {
+        name: about
+        for file in (*reversed(columns_files), COLUMNS_FILE)
+        for name, about in _described(file).items()
+    }
+
+
 @cache
-def described_columns(columns_file: Path = COLUMNS_FILE) -> dict[str, dict[str, Any]]:
-    """Return the description of every column of a file by its `entry`, as "CSV on the Web" has it."""
+def _described(columns_file: Path) -> dict[str, dict[str, Any]]:
     described, (_, *rows) = {}, csv.reader(columns_file.read_text(encoding="utf-8").splitlines())
     for name, datatype, unit, description in rows:
         kind = {"base": "boolean", "format": "True|False"} if datatype == "boolean" else datatype
@@ -130,8 +142,8 @@ def _description(
     unknown = [column for column in table.columns if entry(column) not in described]
     if unknown:
         raise ValueError(
-            f"{name}: columns not described: {', '.join(unknown)}; describe them in {COLUMNS_FILE}, or those "
-            f"of one study in {COLUMNS_FILE.name} of its folder"
+            f"{name}: columns not described: {', '.join(unknown)}; describe them in {COLUMNS_FILE}, or in "
+            f"{COLUMNS_FILE.name} of the folder of a study or of an extra"
         )
     columns = [{"name": column, "titles": column} for column in table.columns]
     return {

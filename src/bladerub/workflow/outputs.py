@@ -1,8 +1,10 @@
 """What the scripts of the rules write: tables that say what made them, and figures."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bladerub import plugins
 from bladerub.io import hdf5, tables
 from bladerub.io.provenance import provenance
 
@@ -13,17 +15,25 @@ if TYPE_CHECKING:
     from bladerub.plots.scales import Scales
 
 
-def save(snakemake: Any, figure: "Figure | None" = None, prefix: str = "", **frames: "pd.DataFrame") -> None:
+def save(
+    snakemake: Any,
+    figure: "Figure | None" = None,
+    prefix: str = "",
+    origin: Mapping[str, str] | None = None,
+    digits: str | None = None,
+    **frames: "pd.DataFrame",
+) -> None:
     """Write the outputs of a job, whose `snakemake` is what Snakemake hands to a script.
 
     The figure goes to the outputs ``png`` and ``pdf`` with the parameter ``dpi``, each table to the output of
-    its name; that of a figure, ``data``, is written to six digits. Names of outputs begin with `prefix` where
-    a job draws several figures. Columns of a study alone are described in ``columns.csv`` of its folder.
+    its name; that of a figure, ``data``, is written to six digits, others to `digits`, a format of pandas.
+    Names of outputs begin with `prefix` where a job draws several figures. `origin` is as of
+    `bladerub.io.tables.write`, by default of the study at work.
     """
     for name, table in frames.items():
-        digits = "%.6g" if name == "data" else None
-        origin = provenance(snakemake.config)
-        tables.write(snakemake.output[prefix + name], table, origin, digits, _columns_file(snakemake))
+        form = "%.6g" if name == "data" else digits
+        made_from = origin or provenance(snakemake.config)
+        tables.write(snakemake.output[prefix + name], table, made_from, form, _columns_files(snakemake))
     if figure is not None:
         from bladerub.plots import style  # imports Matplotlib, which jobs of tables do without
 
@@ -31,10 +41,10 @@ def save(snakemake: Any, figure: "Figure | None" = None, prefix: str = "", **fra
         style.save(figure, *files, snakemake.params["dpi"])
 
 
-def _columns_file(snakemake: Any) -> Path | None:
-    """Find ``columns.csv`` beside the folder of the script; None if there is none."""
+def _columns_files(snakemake: Any) -> list[Path]:
+    """List the ``columns.csv`` of the study whose script this is, if it has one, and those of all extras."""
     path = Path(snakemake.scriptdir).parent / tables.COLUMNS_FILE.name
-    return path if path.is_file() else None
+    return [*([path] if path.is_file() else []), *plugins.files(tables.COLUMNS_FILE.name)]
 
 
 def rpm(snakemake: Any, f_omega: "pd.Series") -> "pd.Series":

@@ -20,6 +20,7 @@ from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import coating_cases, modulus_unit
 from bladerub.study.maps import read_map
+from bladerub.workflow import outputs
 
 config, dpi = snakemake.params.plan[reference.REFERENCE], snakemake.params.dpi
 origin, folder = provenance(config), snakemake.params.folder
@@ -33,7 +34,8 @@ parts = {
 }
 for name, files in parts.items():
     by_set = {one: numbers.collect(f"{folder}/{one}/numbers/{file}.csv" for file in files) for one in sets}
-    tables.write(snakemake.output[name], reference.with_uncertainty(by_set), origin, "%.7g")
+    table = reference.with_uncertainty(by_set)
+    outputs.save(snakemake, origin=origin, digits="%.7g", **{name: table})
 
 history = f"{folder}/{reference.REFERENCE}/history.csv"
 tables.copy(history, snakemake.output.history)

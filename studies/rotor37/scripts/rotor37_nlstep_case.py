@@ -8,8 +8,8 @@ from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.rotor37.nlstep import table
-from bladerub.io import tables
 from bladerub.io.provenance import provenance
+from bladerub.workflow import outputs
 
 config, wildcards = snakemake.params.config, snakemake.wildcards
 numbers = table(
@@ -20,4 +20,4 @@ numbers = table(
     int(wildcards.modes),
     int(wildcards.steps),
 )
-tables.write(snakemake.output.table, numbers, provenance(config), "%.7g")
+outputs.save(snakemake, origin=provenance(config), digits="%.7g", table=numbers)

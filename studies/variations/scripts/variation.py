@@ -8,8 +8,8 @@ from bladerub.config import read as configuration
 from bladerub.extras.variations import candidates, waves
 from bladerub.extras.variations.job import cases, judge
 from bladerub.extras.variations.plan import read
-from bladerub.io import tables
 from bladerub.io.provenance import provenance
+from bladerub.workflow import outputs
 
 kind, name, path = snakemake.wildcards.kind, snakemake.wildcards.job, snakemake.params.plan
 plan = read(kind, path)
@@ -27,5 +27,4 @@ results = judge(
     report=job.log,
 )
 origin = provenance({**snakemake.config, kind: configuration.load(path)})
-for table, content in results._asdict().items():
-    tables.write(snakemake.output[table], content, origin)
+outputs.save(snakemake, origin=origin, **results._asdict())

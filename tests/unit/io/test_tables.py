@@ -4,8 +4,10 @@ import json
 import pandas as pd
 import pytest
 
+from bladerub import plugins
 from bladerub.io import tables
 from bladerub.io.errors import DamagedFile
+from bladerub.io.folders import ROOT
 
 ORIGIN = {"provenance_software": "bladerub 1", "provenance_git_commit": "abc"}
 
@@ -47,8 +49,9 @@ def test_a_copy_brings_its_description_and_the_origin_is_that_of_the_file_now(ta
 
 
 def test_every_column_is_described_once_with_datatype_and_unit():
-    (_, *rows) = csv.reader(tables.COLUMNS_FILE.read_text(encoding="utf-8").splitlines())
-    assert len({name for name, *_ in rows}) == len(rows)
+    files = [tables.COLUMNS_FILE, *plugins.files("columns.csv"), *ROOT.glob("studies/*/columns.csv")]
+    rows = [row for file in files for row in csv.reader(file.read_text(encoding="utf-8").splitlines()[1:])]
+    assert len({name for name, *_ in rows}) == len({tuple(row) for row in rows})
     for name, datatype, unit, description in rows:
         assert description, name
         assert {"string": "", "boolean": "", "integer": "1", "number": unit}[datatype] == unit, name

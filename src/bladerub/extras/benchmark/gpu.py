@@ -24,7 +24,7 @@ COLUMNS = [
     *("compared_runs", "seconds_per_run", "same_status", "same_steps", "same_contact_steps"),
     *("peak_error_median", "peak_error_p95", "peak_error_p99", "peak_error_largest", "largest_residual"),
 ]
-"""Columns of the table, described in ``io/columns.csv``."""
+"""Columns of the table, described in ``columns.csv``."""
 
 
 class Measures(NamedTuple):

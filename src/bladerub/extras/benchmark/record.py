@@ -17,7 +17,7 @@ COLUMNS = [
     *(f"steps_per_second_{loop}" for loop in _LOOPS),
     *("ratio_to_numpy", "ratio_to_numba", "fraction_of_peak", *_WHOLE),
 ]
-"""Columns of the table, described in ``io/columns.csv``."""
+"""Columns of the table, described in ``columns.csv``."""
 
 
 def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
@@ -43,7 +43,7 @@ def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[
     if len(old):
         matches = (old[by] == new.loc[0, by].to_numpy()).all(axis="columns")
         new = pd.concat([old[~matches], new])
-    tables.write(path, new, origin, float_format="%.4g")
+    tables.write(path, new, origin, "%.4g", [Path(__file__).with_name("columns.csv")])
 
 
 def recorded(path: str | Path, columns: list[str] = COLUMNS) -> pd.DataFrame:

@@ -14,7 +14,7 @@ COLUMNS = [
     *("casing", "E", "K", "theta", "f_omega", "peak_theta", "peak_coulomb", "difference"),
     *("reversed_theta", "reversed_coulomb", "slowest_sliding", "status_theta", "status_coulomb"),
 ]
-"""Columns of ``friction.csv``, described in ``io/columns.csv``."""
+"""Columns of ``friction.csv``, described in ``columns.csv``."""
 
 _COMPARED = ["peak", "reversed", "status"]
 

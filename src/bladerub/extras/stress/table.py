@@ -17,7 +17,7 @@ _OF_LAST = ("von_mises", "von_mises_x", "von_mises_y", "von_mises_z", "principal
 
 COLUMNS = [*_CASE, *_PEAK, "status", "rotation_von_mises", "start_up_von_mises"]
 COLUMNS += [f"last_{name}" for name in _OF_LAST]
-"""Columns of ``stress.csv``, described in ``io/columns.csv``."""
+"""Columns of ``stress.csv``, described in ``columns.csv``."""
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # the products are small

@@ -19,7 +19,7 @@ COLUMNS = [
     *(f"start_{measure}" for measure in Differences._fields),
     *("sensitive", "energy_residual", "speedup_at_equal_error", "cpu_s"),
 ]
-"""Columns of ``accuracy.csv``, described in ``io/columns.csv``."""
+"""Columns of ``accuracy.csv``, described in ``columns.csv``."""
 
 
 def table(

@@ -64,7 +64,7 @@ COLUMNS = [
     *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude", "amplitude_change"),
     *("largest_revolution", "median_revolution", "largest_displacement"),
 ]
-"""Columns of ``rigid_convergence.csv``, described in ``io/columns.csv``."""
+"""Columns of ``rigid_convergence.csv``, described in ``columns.csv``."""
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads

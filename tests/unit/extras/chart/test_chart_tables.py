@@ -5,6 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from bladerub import plugins
 from bladerub.extras.chart import check, choice, explanation, ridge, stiffening, table
 from bladerub.extras.chart.point import read, write
 from bladerub.io.tables import described_columns, entry
@@ -41,7 +42,7 @@ def test_a_row_sums_up_a_cell(config, make_point):
     assert (found.Y4, found.f4, found.Y6, found.f6) == (3e-3, 0.33, 5e-4, 0.19)
     assert (found.peak, found.f_at_peak, found.deepest_wear) == (3e-3, 0.33, 1e-4)
     assert found.divergent_share == pytest.approx(31 / 32)
-    assert {entry(name) for name in found.index} <= described_columns().keys()
+    assert {entry(name) for name in found.index} <= described_columns(*plugins.files("columns.csv")).keys()
 
 
 def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K(config, chart):
@@ -60,7 +61,7 @@ def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K(config, chart):
     assert list(of_order.amplitude) == pytest.approx([4e-3, *2 * [4e-3 * (1 - 0.002 / 0.05)]])
     assert (of_order.K_shift == 1).all()
     assert (of_order.height_lost == 0).all()  # the median: two ridge points of three lie on even speeds
-    assert set(found.columns) <= described_columns().keys()
+    assert set(found.columns) <= described_columns(*plugins.files("columns.csv")).keys()
 
 
 def test_the_explanation_counts_cycles(config, chart):
@@ -69,7 +70,7 @@ def test_the_explanation_counts_cycles(config, chart):
     assert found.wear_per_cycle[1.0, 1.0, 6] == pytest.approx(240 / (20 * 6))
     assert found.E_T[1.0, 1.0, 4] == pytest.approx(0.5)
     assert found.f_crossing[1.0, 1.0, 4] == pytest.approx(1 / np.sqrt(13), abs=1e-5)
-    assert set(found.reset_index().columns) <= described_columns().keys()
+    assert set(found.reset_index().columns) <= described_columns(*plugins.files("columns.csv")).keys()
 
 
 @pytest.fixture
@@ -99,7 +100,7 @@ def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_
     assert of_four.rank_correlation_E_T == pytest.approx(1)
     assert of_four.scatter_E_T == pytest.approx(0, abs=1e-12)
     assert max(of_four.rank_correlation_K, of_four.rank_correlation_E) < 0.95
-    assert set(found.columns) <= described_columns().keys()
+    assert set(found.columns) <= described_columns(*plugins.files("columns.csv")).keys()
 
 
 def test_inclined_bars_need_so_much_more_modulus_at_the_same_speed(peaks, leaning):
@@ -145,7 +146,7 @@ def test_the_recommended_coating_says_how_good_those_next_to_it_are(config, char
     assert (soft["lowest_neighbour"], soft["highest_neighbour"]) == pytest.approx((1e-3, 2e-3))
     (none,) = choice.recommended(rows, {"amplitude": 1e-5, "wear": 1e-3}).to_dict("records")
     assert (none["safe"], none["broken"], none["safe_coatings"]) == (False, 1, 0)
-    assert {entry(name) for name in choice.CHOICE} <= described_columns().keys()
+    assert {entry(name) for name in choice.CHOICE} <= described_columns(*plugins.files("columns.csv")).keys()
 
 
 def test_the_search_is_put_to_the_study(config, make_map):
@@ -161,4 +162,6 @@ def test_the_search_is_put_to_the_study(config, make_map):
     assert tuple(counts.loc["Y4", ["coatings", "exact", "within_5_percent"]]) == (3, 2, 2)
     assert counts.worst_missed["Y4"] == pytest.approx(1 / 3)
     assert (counts.exact[["Y6", "peak"]] == 3).all()
-    assert {*found.columns, *counts.reset_index().columns} <= described_columns().keys()
+    assert {*found.columns, *counts.reset_index().columns} <= described_columns(
+        *plugins.files("columns.csv")
+    ).keys()
