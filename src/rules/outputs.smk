@@ -28,9 +28,7 @@ CAPTIONS = {path.stem: path.as_posix() for path in ROOT.glob("studies/**/report/
 def shown(path, name, category, title=None):
     """A file that the report shows; its name there is `title`, or the first line of its caption.
 
-    A study numbers categories of its own itself.
-
-    The caption of a study is `report/<name>.rst` in its folder.
+    The caption of a study is `report/<name>.rst` in its folder; it numbers categories of its own.
     """
     caption = CAPTIONS.get(name) or workflow.source_path(f"../report/{name}.rst")
     with open(caption, encoding="utf-8") as lines:
