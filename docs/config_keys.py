@@ -18,9 +18,10 @@ checks it. Editors that know YAML schemas complete keys and mark mistakes with
 
 Each line has a key, the value of the study, in parentheses what is allowed and the unit of a plain number,
 and the reason. f1 is the first frequency at rest, modulus_unit is `contact.modulus_unit`. `[]` stands for
-each entry of a list, `<name>` for any name. A section that `config/config.yaml` does not have, such as
-`chart`, belongs to a further study; a file may change it as any other. A relative path is relative to the
-folder that Snakemake runs in.
+each entry of a list, `<name>` for any name. A relative path is relative to the folder that Snakemake runs in.
+
+A section that `config/config.yaml` does not have, such as `chart`, belongs to a further study; a file may
+change it as any other.
 
 ## Units
 

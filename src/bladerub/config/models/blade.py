@@ -81,7 +81,7 @@ class Reduction(Section):
     fit_speeds and modes_per_speed are increased until it holds."""
     interface_nodes: Omitted[int] = Field(None, ge=4, le=32)
     """Nodes of the tip that may touch, from the leading to the trailing edge; the paper's 8 if not given.
-    Matrices bring their own. What more of them change: docs/explanation/performance.md."""
+    Matrices bring their own. What more of them change: studies/convergence/README.md."""
     rank_tolerance: Number = Field(ge=1e-12, le=0.1)
     """Relative singular value below which a column of eq. (4) is linearly dependent on the others."""
     accuracy_speeds: int = Field(ge=2, le=200)
