@@ -5,7 +5,7 @@ import re
 import pandas as pd
 
 from docs.numbers import fixed, mm, percent, row, rows, table
-from docs.numbers.refinement import cost, greatest_changes, refinement
+from docs.numbers.refinement import greatest_changes, refinement
 
 _AMPLITUDE = "rest_mu0.15.amplitude"
 
@@ -166,6 +166,4 @@ def _nodes(nodes):
         "Y_by_nodes": percent(changes["Y"]),
         "volume_by_nodes": percent(changes["volume"]),
         "Y_by_nodes_soft": percent(soft["Y"]),
-        "cost_16": cost(nodes, 16),
-        "cost_24": cost(nodes, 24),
     }
