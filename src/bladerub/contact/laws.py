@@ -21,6 +21,11 @@ from bladerub.numerics.lanes import USUAL
 NAMES = (PLASTIC.name, *sorted(plugins.offered("LAWS")))
 """Laws that a config may name."""
 
+_ALONE = {
+    "law": f"name: this package has the law {PLASTIC.name} alone",
+    "loop": f"this package has tips of up to {USUAL} nodes alone, which do not turn, and the paper's law",
+}
+
 
 def element_law(entry: Mapping[str, Any]) -> ElementLaw:
     """Describe the law of the block ``contact.law`` of a config, the paper's where it names none.
@@ -69,4 +74,4 @@ def element_parameters(coating: Coating, area: np.ndarray, time_step: float = ma
 def _plugged_in(kind: str) -> Any:
     if place := plugins.offered("VARIANTS").get(kind):
         return plugins.load(place)
-    raise ValueError("name: this package has the law plastic alone, and tips of up to eight nodes that move")
+    raise ValueError(_ALONE[kind])
