@@ -8,7 +8,7 @@ from bladerub.contact.laws import law_digest
 from bladerub.study.grid import case_from_name, element_law, speeds
 from bladerub.study.growth import confirmation_determinants
 from bladerub.study.plan import coating_plan
-from bladerub.io.sources import solver_digest
+from bladerub.contact.sources import solver_digest
 from bladerub.workflow.cores import costs_of, priority_of, threads_for
 
 

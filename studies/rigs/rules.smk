@@ -1,4 +1,5 @@
 # A rigid tip on a coated disk, pass by pass (config/rigs.yaml). Not part of `all`.
+from bladerub.contact.laws import NAMES
 from bladerub.extras.rig.plan import PLAN as RIGS
 
 

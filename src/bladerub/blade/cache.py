@@ -12,7 +12,7 @@ from bladerub.blade.source import reader_digest
 from bladerub.io import atomic
 from bladerub.io.folders import cache_folder
 from bladerub.io.provenance import packages
-from bladerub.io.sources import builder_digest
+from bladerub.io.sources import digest_of
 
 
 def kept_at(config: Mapping[str, Any]) -> Path:
@@ -25,7 +25,7 @@ def kept_at(config: Mapping[str, Any]) -> Path:
 
 
 def _name(config: Mapping[str, Any]) -> str:
-    recipe = json.dumps([made_from(config), builder_digest(), reader_digest(config["blade"]), packages()])
+    recipe = json.dumps([made_from(config), digest_of("blade"), reader_digest(config["blade"]), packages()])
     return hashlib.sha256(recipe.encode()).hexdigest()[:16]
 
 

@@ -96,23 +96,10 @@ def _named_in(source: str) -> tuple[tuple[str, bool], ...]:
 
 
 @cache
-def solver_digest() -> str:
-    """Digest the source of what computes a run: contact, numerics and the reduced blade's own class."""
-    folders = (PACKAGE / "contact", PACKAGE / "numerics")
-    sources = [path for folder in folders for path in folder.rglob("*.py")]
-    return source_digest([*sources, PACKAGE / "blade" / "model.py"])
-
-
-@cache
-def storage_digest() -> str:
-    """Digest the source of what turns a result into its file."""
-    return source_digest([PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
-
-
-@cache
-def growth_digest() -> str:
-    """Digest the source of what decides whether a run grows."""
-    return source_digest([PACKAGE / "study" / "growth.py"])
+def digest_of(*names: str) -> str:
+    """Digest files of the package, and those of Python in folders, by their paths in it."""
+    paths = [PACKAGE / name for name in names]
+    return source_digest(file for path in paths for file in ([path] if path.suffix else path.rglob("*.py")))
 
 
 def source_digest(paths: Iterable[Path]) -> str:
@@ -123,9 +110,3 @@ def source_digest(paths: Iterable[Path]) -> str:
         entry = [path.relative_to(PACKAGE).as_posix(), path.read_text(encoding="utf-8")]
         digest.update(json.dumps(entry).encode())
     return digest.hexdigest()
-
-
-@cache
-def builder_digest() -> str:
-    """Digest the source of what builds a blade."""
-    return source_digest((PACKAGE / "blade").rglob("*.py"))

@@ -2,7 +2,7 @@
 
 Numba notices a change of the file that holds a cached function, but not of functions that it calls in
 other files: a run after an edit could use old code. The folder of the cache therefore carries a digest
-of all sources of the solver, the number of lanes, and digests of what else is not the usual in the loop.
+of all sources that are compiled together, the number of lanes, and digests of what else is not the usual.
 """
 
 import os
@@ -16,7 +16,6 @@ from numba.extending import register_jitable
 
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import cache_folder
-from bladerub.io.sources import solver_digest
 from bladerub.numerics import lanes
 
 if numba.config.DISABLE_JIT:
@@ -46,8 +45,8 @@ class _Cache(FunctionCache):
             return None
 
 
-def njit_on_disk(**options) -> Callable[[Callable], Callable]:
-    """As `numba.njit` with ``cache=True``, in a folder that belongs to the present sources.
+def njit_on_disk(sources: str, **options) -> Callable[[Callable], Callable]:
+    """As `numba.njit` with ``cache=True``, in a folder that belongs to the `sources` of this digest.
 
     The folder is ``NUMBA_CACHE_DIR``, or beside the sources, or with what is kept for this user
     (`bladerub.io.folders.cache_folder`) where these cannot be written.
@@ -56,7 +55,7 @@ def njit_on_disk(**options) -> Callable[[Callable], Callable]:
     def decorate(function: Callable) -> Callable:
         user_folder = numba.config.CACHE_DIR
         parent = Path(user_folder or (_BESIDE if os.access(_BESIDE.parent, os.W_OK) else cache_folder()))
-        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}-{lanes.INSTANCE}")
+        numba.config.CACHE_DIR = str(parent / f"machine-code-{sources[:16]}-{lanes.INSTANCE}")
         try:
             compiled = numba.njit(**options)(function)
             compiled._cache = _Cache(function)  # as `cache=True` does with that of Numba

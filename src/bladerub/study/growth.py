@@ -34,7 +34,7 @@ import numpy as np
 import scipy
 
 from bladerub.contact.spec import RunSpec
-from bladerub.io.sources import growth_digest
+from bladerub.io.sources import digest_of
 
 RESOLUTION = 1e-3
 """Relative scatter below which amplitudes show nothing: the accuracy of a run is not better."""
@@ -162,3 +162,8 @@ def confirmation_determinants(settings: Mapping[str, Any]) -> dict[str, Any]:
     if settings["confirmation_revolutions"] == 0:
         return {}
     return {**settings, "definition": growth_digest()}
+
+
+def growth_digest() -> str:
+    """Digest the source of what decides whether a run grows."""
+    return digest_of("study/growth.py")

@@ -6,8 +6,9 @@ from typing import Any
 
 from bladerub.contact.laws import law_digest
 from bladerub.contact.motion import motion_digest
+from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
-from bladerub.io.sources import solver_digest, storage_digest
+from bladerub.io.sources import digest_of
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
 from bladerub.study.growth import confirmation_determinants, confirmation_spec
@@ -65,6 +66,11 @@ def planned_run(
     else:  # what computes it decides the last bits, and with them a chaotic run
         determinants |= solver_of(config).determinants()
     return PlannedRun(spec, file, keep_history, cache.digest(determinants), row)
+
+
+def storage_digest() -> str:
+    """Digest the source of what turns a result into its file."""
+    return digest_of("study/store.py", "study/spectra.py")
 
 
 def coating_plan(config: Mapping[str, Any], case: CoatingCase) -> CoatingPlan:

@@ -65,7 +65,7 @@ class Solver:
             yield Solved(number, result, seconds)
 
     def determinants(self) -> dict[str, str]:
-        """Name and digest of what determines a run besides `bladerub.io.sources.solver_digest`, if any."""
+        """Name and digest of what determines a run besides `bladerub.contact.sources`, if anything."""
         return {}
 
     def start(self) -> None:

@@ -1,12 +1,14 @@
 import pytest
 
+from bladerub.contact.sources import solver_digest
 from bladerub.extras.chart import column
 from bladerub.extras.gpu import solver
 from bladerub.io import sources
+from bladerub.study.growth import growth_digest
+from bladerub.study.plan import storage_digest
 
-SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
-GROWTH, CHART = sources.growth_digest.__wrapped__, column.chart_digest.__wrapped__
-GPU = solver.gpu_digest.__wrapped__
+SOLVER, STORAGE, GROWTH = solver_digest, storage_digest, growth_digest
+GPU, CHART = solver.gpu_digest.__wrapped__, column.chart_digest.__wrapped__
 EDITS = [  # the file, the digest that it belongs to, one that it does not
     ("contact/run.py", SOLVER, STORAGE),
     ("contact/kernel/run.py", SOLVER, STORAGE),
@@ -35,28 +37,34 @@ def package(tmp_path, monkeypatch):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("a = 1\n")
     monkeypatch.setattr(sources, "PACKAGE", tmp_path)
-    return tmp_path
+    yield tmp_path
+    sources.digest_of.cache_clear()
+
+
+def fresh(digest):
+    sources.digest_of.cache_clear()
+    return digest()
 
 
 @pytest.mark.parametrize(("changed", "digest", "other"), EDITS)
 def test_an_edit_changes_the_digest_it_belongs_to_alone(package, changed, digest, other):
-    before = digest(), other()
+    before = fresh(digest), fresh(other)
     (package / changed).write_text("a = 2\n")
-    assert digest() != before[0]
-    assert other() == before[1]
+    assert fresh(digest) != before[0]
+    assert fresh(other) == before[1]
 
 
 def test_a_file_that_moves_changes_the_digest(package):
-    before = SOLVER()
+    before = fresh(SOLVER)
     (package / "contact/run.py").rename(package / "contact/kernel/new.py")
-    after = SOLVER()
+    after = fresh(SOLVER)
     (package / "contact/kernel/new.py").rename(package / "contact/new.py")
-    assert len({before, after, SOLVER()}) == 3
+    assert len({before, after, fresh(SOLVER)}) == 3
 
 
 def left_out(entry, *digests):
     """Modules behind `entry`, directly or not, that none of the digests covers."""
-    covered = set().union(*(digest() for digest in digests))
+    covered = set().union(*(fresh(digest) for digest in digests))
     found, waiting = set(), [entry]
     while waiting:
         path = sources._path_of(waiting.pop())

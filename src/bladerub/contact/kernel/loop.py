@@ -20,6 +20,7 @@ from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct, store_tip
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
+from bladerub.contact.sources import solver_digest
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, where
@@ -207,7 +208,7 @@ def _put_in_order(rows, n, turns):
             write(rows, k, last)
 
 
-@njit_on_disk(nogil=True)  # threads of one process integrate at the same time
+@njit_on_disk(solver_digest(), nogil=True)  # threads of one process integrate at the same time
 def integrate(
     modal, flight, stator, tip, state, steps_per_element, first, last, is_flying, reach, displacement
 ):

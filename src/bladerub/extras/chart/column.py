@@ -13,6 +13,7 @@ from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.laws import law_digest
 from bladerub.contact.result import RunResult
+from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.chart import point as points
 from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
@@ -21,7 +22,6 @@ from bladerub.extras.chart.point import PointRow
 from bladerub.extras.chart.search import compute, compute_together, search
 from bladerub.io import lock, sources
 from bladerub.io.checksum import file_checksum
-from bladerub.io.sources import solver_digest
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.solver import each_done, solver_of

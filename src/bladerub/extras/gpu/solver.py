@@ -40,6 +40,6 @@ class Gpu(Solver):
 
 @cache
 def gpu_digest() -> str:
-    """Digest the source of what computes a run on a GPU, besides `bladerub.io.sources.solver_digest`."""
+    """Digest the source of what computes a run on a GPU, besides `bladerub.contact.sources.solver_digest`."""
     folder = sources.PACKAGE / "extras" / "gpu"
     return sources.source_digest(path for path in folder.iterdir() if path.suffix in (".py", ".h", ".cu"))

@@ -14,6 +14,7 @@ from numba.extending import intrinsic
 
 from bladerub.contact.kernel.loop import Progress, Simulation, integrate
 from bladerub.contact.kernel.modal import move_tip
+from bladerub.contact.sources import solver_digest
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import address_of, place_at, read, write
 from bladerub.numerics.vectors import LANES
@@ -133,7 +134,7 @@ def record_at(context, record, address):
     return record(record, types.intp), generate
 
 
-@njit_on_disk(nogil=True)
+@njit_on_disk(solver_digest(), nogil=True)
 def _integrate_row(
     kinds,
     modals,

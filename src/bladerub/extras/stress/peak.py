@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numba.extending import register_jitable
 
+from bladerub.contact.sources import solver_digest
 from bladerub.extras.stress.nodal import NodalStress
 from bladerub.numerics.machine_code import njit_on_disk
 
@@ -149,7 +150,7 @@ def _extremes(stress: ModalStress, coordinates: np.ndarray, parts: Sequence[slic
     return [coordinates[part][np.unique(sums[:, part].argmax(axis=1))] for part in parts]
 
 
-@njit_on_disk(nogil=True)
+@njit_on_disk(solver_digest(), nogil=True)
 def _largest(values):
     """Find the largest of values (6, m, s) for each node: stress of each of `_KINDS` and instant, (3, m).
 

@@ -21,6 +21,7 @@ from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import run_result
 from bladerub.contact.setup import set_up_modes
+from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.machine_code import njit_on_disk
 from bladerub.numerics.memory import read
@@ -110,7 +111,7 @@ def _advance_by_parts(simulation, ends, displacement, rows, forces):
     return len(rows), Progress(n_steps, n_flights, n_contact, low, high)
 
 
-@njit_on_disk(nogil=True)
+@njit_on_disk(solver_digest(), nogil=True)
 def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displacement, rows, forces):
     n_steps = n_flights = n_contact = 0
     low, high = np.inf, -np.inf
@@ -142,7 +143,7 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
     return len(rows), n_steps, n_flights, n_contact, low, high
 
 
-@njit_on_disk()
+@njit_on_disk(solver_digest())
 def _normal(value):
     """Return the number, or 0 for one that is subnormal in single precision, since those are slow."""
     return value if abs(value) > 1e-37 else 0.0
