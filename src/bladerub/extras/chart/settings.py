@@ -31,8 +31,7 @@ class ChartSpeeds(Section):
     """
 
     start: Speed = Field(0.152, ge=0.001, le=2)
-    """Below speeds.stop: the lower end of the window of eo(6). Slower runs cost most, and no coating of the
-    study has its greatest displacement there."""
+    """Below speeds.stop: the lower end of the window of eo(6). Slower runs cost most."""
     step: Speed = Field(0.008, ge=1e-4, le=2)
     """Of the even speeds, up to speeds.stop; shares of divergent speeds are of these."""
     dense_stop: Speed = Field(0.24, ge=0.001, le=2)
