@@ -1,5 +1,6 @@
 """One style for every figure: sizes for print, colours that the colour-blind and grey print keep apart."""
 
+import math
 from base64 import b64encode
 from collections.abc import Callable
 from functools import wraps
@@ -75,7 +76,17 @@ _NOTEBOOK_DPI, _FILE_DPI = 110, 200
 
 
 class Picture(Figure):
-    """A figure that shows itself in a notebook, whatever backend is used."""
+    """A figure that shows itself in a notebook, whatever backend is used, and can be drawn without data."""
+
+    def draw(self, renderer: Any) -> None:
+        """Draw, with linear scales in place of logarithmic ones that no data are on, which have no limits."""
+        for axes in self.axes:
+            for name, shared in (("x", axes.get_shared_x_axes()), ("y", axes.get_shared_y_axes())):
+                together = shared.get_siblings(axes)
+                smallest = min(getattr(one.dataLim, f"minpos{name}") for one in together)
+                if getattr(axes, f"get_{name}scale")() == "log" and not math.isfinite(smallest):
+                    getattr(axes, f"set_{name}scale")("linear")
+        super().draw(renderer)
 
     def _repr_html_(self) -> str:
         stream = BytesIO()

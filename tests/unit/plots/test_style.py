@@ -24,6 +24,16 @@ def test_equal_figures_give_equal_files_and_leave_the_settings_of_the_session_al
     assert dict(matplotlib.rcParams) == before
 
 
+def test_logarithmic_axes_without_data_are_drawn(draws):
+    figure = style.new_figure(2, 1)
+    for axes, data in zip(figure.subplots(1, 3, sharey=True), ([], [math.nan], [0.1]), strict=True):
+        axes.plot(data, data)
+        axes.set(xscale="log", yscale="log")
+    axes = draws(figure).axes
+    assert [one.get_xscale() for one in axes] == ["linear", "linear", "log"]
+    assert {one.get_yscale() for one in axes} == {"log"}
+
+
 @pytest.mark.parametrize(
     ("case", "name"),
     [

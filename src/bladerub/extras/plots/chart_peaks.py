@@ -88,9 +88,7 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) ->
             axes.plot(stiffened.E_T, stiffened.f_peak, **marks, mec="none", label=label)
             axes.plot(others.E_T, others.f_peak, **marks | {"mfc": "none", "color": GREY})
         axes.axhline(of_order.f_crossing.mean(), color=GREY, lw=0.9, ls="--", label="crossing with $C_1$")
-        if of_order.f_peak.notna().any():
-            axes.set_xscale("log")
-        axes.set(xlabel=_tangent_modulus(unit), ylabel=f"$f_{{{order}}}$")
+        axes.set(xscale="log", xlabel=_tangent_modulus(unit), ylabel=f"$f_{{{order}}}$")
         axes.set_title(titles.panel(index, f"eo({order})"), pad=38)
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), fontsize=7, borderaxespad=0.1)
         axes.grid(True)
