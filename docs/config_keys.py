@@ -13,7 +13,9 @@ HEAD = """\
 
 The values of the study are in `config/config.yaml`. A file of your own needs only the keys that it changes
 ([what is laid over what](how-to/vary_the_study.md#a-study-in-a-file-of-your-own)). `bladerub config my.yaml`
-checks it. Editors that know YAML schemas complete keys and mark mistakes with
+checks it.
+
+Editors that know YAML schemas complete keys and mark mistakes with
 `# yaml-language-server: $schema=config/schema.json` in its first line (the path is relative to the file).
 
 Each line has a key, the value of the study, in parentheses what is allowed and the unit of a plain number,
