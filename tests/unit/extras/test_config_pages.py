@@ -1,5 +1,3 @@
-"""What is made from the models of a config: the JSON schema and the reference."""
-
 import jsonschema
 import pytest
 import yaml
@@ -18,8 +16,6 @@ CONFIGS = sorted(
     for path in (ROOT / "config").glob("*.yaml")
     if path.read_text(encoding="utf-8").startswith("# yaml-language-server: $schema=schema.json\n")
 )
-
-
 STUDY = load(ROOT / "config" / "config.yaml")
 
 
@@ -54,17 +50,3 @@ def test_the_schema_refuses_the_mistakes_that_it_can_see(schema, tmp_path, mista
     path = tmp_path / "my.yaml"
     path.write_text(mistake.text, encoding="utf-8")
     assert schema.is_valid(read(path).plain()) != mistake.in_schema
-
-
-def line(path):
-    (line,) = [line for line in reference(STUDY).splitlines() if line.startswith(f"* `{path}`")]
-    return line
-
-
-def test_a_line_of_the_reference_has_value_range_unit_and_reason():
-    damping = "* `contact.damping_ratio` = `0.0023` (at least 0 and below 1): Of every mode"
-    assert line("contact.damping_ratio").startswith(damping)
-    assert "0 and at most 0.05 m; below contact.layer_thickness)" in line("casings.<name>.interference")
-    assert "(1 to 1000 entries, each above 0 and at most 1e+06 modulus_unit): " in line("coatings[].E")
-    assert "`14` (whole, 4 to 200): " in line("blade.mesh.chordwise")
-    assert line("analysis.histories[].damping_ratio").endswith(": as `contact.damping_ratio`.")

@@ -15,7 +15,6 @@ PARAMETERS = {"slope": ("Pa", 0.0, 10.0, "a slope")}
 
 @pytest.fixture
 def with_law(config, monkeypatch, tmp_path):
-    """Make a config with a law, in a folder of its own."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(law_reading, "study_folder", lambda: tmp_path)
     return lambda **law: {**config, "contact": {**config["contact"], "law": law}}

@@ -6,12 +6,14 @@ import pandas as pd
 import pytest
 
 from bladerub import plugins
-from bladerub.blade.accuracy import ACCURACY_COLUMNS, accuracy_table
+from bladerub.blade.accuracy import accuracy_table
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.extras import blade_comparison, small_study
 from bladerub.extras.friction import table as friction
+from bladerub.extras.friction.coatings import compared
 from bladerub.io.folders import ROOT
 from bladerub.io.tables import described_columns
+from bladerub.study import grid
 from bladerub.study.grid import coating_cases
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import DATASETS
@@ -19,7 +21,6 @@ from bladerub.study.maps import DATASETS
 
 @pytest.fixture
 def made(study, blade, simulated, monkeypatch, tmp_path):
-    """Conduct a study of one coating, its runs from a stand-in of the solver."""
     study["coatings"] = [{"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.15]}]
     study["analysis"] |= {"histories": [], "peaks": study["analysis"]["peaks"] | {"orders": [4, 6]}}
     monkeypatch.setattr(small_study, "read_reduced_blade", lambda _: blade)
@@ -36,9 +37,7 @@ def made(study, blade, simulated, monkeypatch, tmp_path):
 def test_a_small_study_has_all_runs_and_judges_the_claims_asked_for(made, simulated, growing, repeated):
     growing[0.19] = 0.05
     found = made({"C1"})
-    assert simulated == [0.1, 0.19, 0.2, 0.3]
-    assert repeated == [0.19]
-    assert found.n_runs == 5
+    assert (simulated, repeated, found.n_runs) == ([0.1, 0.19, 0.2, 0.3], [0.19], 5)
     assert list(found.divergence.f_omega) == [0.1, 0.19, 0.2, 0.3]
     assert set(found.findings["id"]) == {"C1a", "C1b"}
     simulated.clear()
@@ -64,8 +63,6 @@ def test_without_a_folder_it_is_the_same_and_nothing_is_written(made, study, gro
 
 @pytest.fixture
 def stored(write_run, make_result, spec, tmp_path):
-    """Write the runs of one coating under a law of friction; return the path of its manifest."""
-
     def write(law, speeds, amplitude=1e-3, **changes):
         result = replace(make_result(amplitude=amplitude), **changes)
         rows = []
@@ -82,14 +79,12 @@ def test_both_laws_are_compared_speed_by_speed(stored):
     constant = stored("theta", [0.1, 0.2], n_reversed_steps=30, slowest_sliding=-0.2)
     coulomb = stored("coulomb", [0.1, 0.2], amplitude=1.1e-3, n_reversed_steps=60, status="unbounded")
     table = friction.table([(constant, coulomb)], revolutions=10)
-    assert list(table.columns) == friction.COLUMNS
-    described = {*table, *blade_comparison.BLADE_COLUMNS, *blade_comparison.RUN_COLUMNS}
+    described = {*friction.COLUMNS, *blade_comparison.BLADE_COLUMNS, *blade_comparison.RUN_COLUMNS}
     files = [*plugins.files("columns.csv"), ROOT / "studies" / "blade_comparison" / "columns.csv"]
-    assert described <= described_columns(*files).keys()
+    assert set(table) <= described <= described_columns(*files).keys()
     assert list(table.f_omega) == [0.1, 0.2]
     first = table.iloc[0]
-    assert first.peak_theta == pytest.approx(1e-3, rel=1e-4)
-    assert first.peak_coulomb == pytest.approx(1.1e-3, rel=1e-4)
+    assert (first.peak_theta, first.peak_coulomb) == pytest.approx((1e-3, 1.1e-3), rel=1e-4)
     assert first.difference == pytest.approx(0.1)
     assert (first.reversed_theta, first.reversed_coulomb) == pytest.approx((0.1, 0.2))
     assert first.slowest_sliding == -0.2
@@ -107,7 +102,6 @@ def built(blade):
     exact = {speed: reduced_frequencies(blade, speed, 7) for speed in SPEEDS}
     off = 1 + 1e-3 * np.arange(1, 8)
     accuracy = accuracy_table(blade, {s: f / off for s, f in exact.items()}, exact)
-    assert list(accuracy.columns) == ACCURACY_COLUMNS
     moved = np.zeros((3, 5, 3))
     moved[-1, 2] = (0.6e-4, 0.0, 0.8e-4)
     return SimpleNamespace(reduced=blade, accuracy=accuracy, static_displacement=moved)
@@ -115,16 +109,12 @@ def built(blade):
 
 def test_the_figures_of_a_blade_are_those_of_its_model(built):
     table = blade_comparison.blades({"this": built, "reference": built})
-    assert list(table.columns) == blade_comparison.BLADE_COLUMNS
     figures = table[table.blade == "this"].set_index("number").value
     f1, f2 = reduced_frequencies(built.reduced, 0.0, 2)
-    assert figures.f1 == pytest.approx(f1 / 1.001)
-    assert figures.f2_over_f1 == pytest.approx(f2 / f1 * 1.001 / 1.002)
-    assert figures.stiffening == pytest.approx(np.sqrt(1 + 3 * 0.4**2))
-    assert figures.error_modes_1_to_6 == pytest.approx(6e-3)
-    assert figures.error_mode_7 == figures.error_eq2 == pytest.approx(7e-3)
-    assert figures.centrifugal_displacement == pytest.approx(1e-4)
-    assert figures.coordinates == 24
+    expected = {"f1": f1 / 1.001, "f2_over_f1": f2 / f1 * 1.001 / 1.002, "stiffening": np.sqrt(1.48)}
+    expected |= {"error_modes_1_to_6": 6e-3, "error_mode_7": 7e-3, "error_eq2": 7e-3, "coordinates": 24}
+    expected["centrifugal_displacement"] = 1e-4
+    assert figures[list(expected)].to_dict() == pytest.approx(expected)
     assert (table.value[table.blade == "reference"].to_numpy() == figures.to_numpy()).all()
 
 
@@ -139,12 +129,17 @@ def test_runs_are_compared_at_the_common_speeds(config, case, make_map):
     one = make_map(case, {4: (0.3, 1e-3)}, f_omega=[0.1, 0.25, 0.3], lobes=[2, 4, 5], growth=[0.0, 0.0, 0.1])
     other = make_map(case, {4: (0.3, 1e-3)}, f_omega=[0.1 + 1e-13, 0.2, 0.3], lobes=[2, 3, 4])
     table = blade_comparison.runs(config, [(one, other)], (0.1, 0.2))
-    assert list(table.columns) == blade_comparison.RUN_COLUMNS
-    assert list(table.f_omega) == [0.1, 0.3]
-    assert list(table.lobes) == [2, 5]
-    assert list(table.reference_lobes) == [2, 4]
-    assert list(table.divergent) == [False, True]
-    assert not table.reference_divergent.any()
-    assert table.worn_depth_share.to_numpy() == pytest.approx(1e-4 / 0.1, rel=1e-5)
-    assert table.reference_worn_depth_share.to_numpy() == pytest.approx(1e-4 / 0.2, rel=1e-5)
+    both = [[0.1, 2, 2, False, False], [0.3, 5, 4, True, False]]
+    columns = ["f_omega", "lobes", "reference_lobes", "divergent", "reference_divergent"]
+    assert table[columns].to_numpy().tolist() == both
+    shares = table[["worn_depth_share", "reference_worn_depth_share"]].to_numpy()
+    np.testing.assert_allclose(shares, 2 * [[1e-4 / 0.1, 1e-4 / 0.2]], rtol=1e-5)
     assert (table.casing == case.casing).all()
+
+
+def test_compared_coatings_are_found_by_name_and_are_no_part_of_the_study(config):
+    config["friction"] = [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.15, 0.3]}]
+    cases = compared(config)
+    assert [case.name for case in cases[:2]] == ["2nd_E3_K0.5_theta0.15", "2nd_E3_K0.5_mu0.151135"]
+    assert [grid.case_from_name(config, case.name) for case in cases] == cases
+    assert not set(cases) & set(grid.coating_cases(config))

@@ -3,7 +3,7 @@ import pytest
 
 from bladerub import plugins
 from bladerub.contact.result import Energy
-from bladerub.extras.passages import sweep_grid, sweeps
+from bladerub.extras.passages import long_runs, sweep_grid, sweeps
 from bladerub.extras.passages.speed_sweep import SweepResult
 from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
@@ -14,12 +14,10 @@ REVOLUTIONS = 60
 
 
 @pytest.fixture
-def passed(monkeypatch, angle):
-    """Let each sweep vibrate on engine order 4, by a hat over speed; return what was asked for."""
-    asked = []
+def make(config, blade, monkeypatch, angle, tmp_path):
+    """Make a sweep that vibrates on engine order 4, by a hat over speed."""
 
     def simulate_sweep(_, spec):
-        asked.append(spec)
         f_omega = np.linspace(spec.run.f_omega, spec.f_end, REVOLUTIONS)
         height = 1e-3 * np.clip(1 - np.abs(f_omega - 0.3) / 0.05, 0.001, None)
         track = height[:, None] * np.sin(4 * angle)
@@ -43,11 +41,7 @@ def passed(monkeypatch, angle):
         )
 
     monkeypatch.setattr(sweeps, "simulate_sweep", simulate_sweep)
-    return asked
 
-
-@pytest.fixture
-def make(config, blade, passed, tmp_path):
     def make(direction, rate):
         path = tmp_path / f"{direction}_{rate}.h5"
         sweeps.make(config, CASE, blade, direction, rate, path)
@@ -68,7 +62,6 @@ def test_spectra_are_of_windows_in_the_order_of_speed(make, config, direction):
     assert sweep.spectrum_order[best[1]] == 4
     np.testing.assert_allclose(sweep.C1, np.sqrt(1 + 3 * sweep.f_omega**2))
     assert (sweep.case, sweep.direction, sweep.rate, sweep.status) == (CASE, direction, 0.05, "completed")
-    assert sweep.max_wear == pytest.approx(2e-4)
 
 
 def test_peaks_stand_beside_those_at_constant_speed(make, make_map, config):
@@ -89,3 +82,44 @@ def test_peaks_stand_beside_those_at_constant_speed(make, make_map, config):
     assert np.isnan(ended.f_peak)
     assert (ended.survives, ended.status) == (False, "unbounded")
     assert ended.f_end == pytest.approx(np.linspace(0.14, 0.4, REVOLUTIONS)[14])
+
+
+def test_runs_that_grow_to_the_end_and_peaks_are_chosen(config, make_map):
+    """Peaks at 0.2 and 0.3; grows at 0.05 and 0.2, and saturates in the longer run at 0.1."""
+    f_omega = np.round(np.arange(0.02, 0.4001, 0.01), 6)
+    growth = np.where(np.isin(f_omega, [0.05, 0.1, 0.2]), 0.04, 0.0)
+    longer = np.full((f_omega.size, 60), np.nan)
+    longer[np.isclose(f_omega, 0.05)] = 1e-6 * 1.04 ** np.arange(60)
+    longer[np.isclose(f_omega, 0.1)] = 1e-6
+    coating = make_map(CASE, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, growth=growth, longer=longer)
+    assert long_runs.chosen(config, coating) == {0.05: "grows", 0.2: "f6", 0.3: "f4"}
+
+
+def amplitudes():
+    number = np.arange(200.0)
+    ended, free = 1e-4 * 1.05**number, 1e-4 * 1.05**number
+    free[70:] = free[69] * 0.9 ** np.arange(1, 131)
+    ended[70:] = np.nan
+    return {
+        "steady": np.full(200, 1e-4),
+        "saturating": 1e-4 * (2 - np.exp(-number / 30)),
+        "divergent": 1e-4 * 1.02**number,
+        "unbounded": ended,
+        "free": free,
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "verdicts"),
+    [
+        ("steady", ["steady"] * 4),
+        ("saturating", ["divergent", "saturating", "saturating", "saturating"]),
+        ("divergent", ["divergent"] * 4),
+        ("unbounded", ["divergent", "divergent", "unbounded", "unbounded"]),
+        ("free", ["divergent", "divergent", "saturating", "free"]),
+    ],
+)
+def test_what_is_said_after_more_and_more_revolutions(config, name, verdicts):
+    amplitude = amplitudes()[name]
+    said = [long_runs.verdict_after(config, amplitude, stop)[0] for stop in (20, 60, 100, 200)]
+    assert said == verdicts

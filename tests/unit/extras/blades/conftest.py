@@ -31,5 +31,4 @@ def written(discrete, tmp_path_factory):
 
 @pytest.fixture
 def folder(written, tmp_path):
-    """Matrices of the blade that a test may change."""
     return Path(shutil.copytree(written, tmp_path / "matrices"))

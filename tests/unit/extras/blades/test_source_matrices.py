@@ -42,7 +42,7 @@ def of_folder(config, folder, **more):
 
 def test_the_blade_comes_back_from_its_matrices(config, discrete, tmp_path):
     paths = write_fe_matrices(tmp_path, discrete, 0.4, ".mtx")
-    assert sorted(path.name for path in paths) == sorted(path.name for path in tmp_path.iterdir())
+    assert sorted(paths) == sorted(tmp_path.iterdir())
     ours, theirs = build(config), build(of_folder(config, tmp_path))
     np.testing.assert_allclose(theirs.frequency, ours.frequency, rtol=1e-9)
     np.testing.assert_allclose(theirs.accuracy, ours.accuracy, rtol=1e-8, atol=1e-8)
@@ -80,16 +80,13 @@ def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
 
     frame = Frame("mm", rotation="z", downstream="-z", radial="x")
     given = imported(tmp_path, frame=frame, matrix_units="mm-tonne", omega_max=omega[-1])
-    volume = solid.mass.sum() / 3 / TITANIUM["density"]
-    assert given.mass == pytest.approx(TITANIUM["density"] * volume)
+    assert given.mass == pytest.approx(solid.mass.sum() / 3)
     assert given.mass_is_complete
     assert given.blade.layout.length == pytest.approx(0.2, rel=0.01)
     np.testing.assert_allclose(given.blade.frequency, discrete.frequency, rtol=1e-9)
     np.testing.assert_allclose(given.blade.layout.mesh.mesh.points, mesh.mesh.points, atol=1e-15)
-    for ours, theirs in (
-        (discrete.mass, given.blade.mass),
-        (discrete.stiffness[0.4], given.blade.stiffness[0.4]),
-    ):
+    pairs = [(discrete.mass, given.blade.mass), (discrete.stiffness[0.4], given.blade.stiffness[0.4])]
+    for ours, theirs in pairs:
         assert abs(theirs - ours).max() <= 1e-12 * abs(ours).max()
 
 
@@ -119,9 +116,7 @@ def test_a_blade_that_nothing_holds_is_refused(discrete, folder):
 
 def test_a_speed_that_is_not_the_configs_is_refused(folder, discrete):
     omega = 2 * np.pi * discrete.frequency[0] * 0.4
-    assert imported(folder, omega_max=1.0009 * omega).blade.frequency[0] == pytest.approx(
-        discrete.frequency[0]
-    )
+    imported(folder, omega_max=1.0009 * omega)
     with pytest.raises(BadInput, match=r"is 0.44 of the blade's first .*f_omega_max = 0.4 must be that"):
         imported(folder, omega_max=1.1 * omega)
 
@@ -135,26 +130,16 @@ def test_a_blade_is_of_its_files_not_of_the_material(config, folder):
     assert made_from(ours) != first
 
 
-def matrix(folder, name, change):
-    path = folder / f"{name}.npz"
-    sparse.save_npz(path, sparse.csc_array(change(sparse.load_npz(path))))
-
-
-def entry(folder, name, row, column, value=0.0, times=0.0):
-    def change(matrix):
-        matrix = matrix.tolil()
-        matrix[row, column] = value + times * matrix[row, column]
-        return matrix
-
-    matrix(folder, name, change)
+def entry(folder, name, change, column=6):
+    content = sparse.load_npz(folder / f"{name}.npz").tolil()
+    content[4, column] = change(content[4, column])
+    sparse.save_npz(folder / f"{name}.npz", content.tocsc())
 
 
 def nodes(folder, change):
-    """Change the numbers of the interface nodes, 0 elsewhere."""
     table = pd.read_csv(folder / "nodes.csv")
-    table.assign(interface=change(table.interface.fillna(0).to_numpy())).to_csv(
-        folder / "nodes.csv", index=False
-    )
+    table["interface"] = change(table.interface.fillna(0).to_numpy())
+    table.to_csv(folder / "nodes.csv", index=False)
 
 
 def text(folder, name, content):
@@ -184,28 +169,18 @@ HEADER = "%%MatrixMarket matrix coordinate real general\n"
     ("change", "said"),
     [
         (lambda at: (at / "stiffness_half.npz").unlink(), "matrices: holds no stiffness_half"),
-        (lambda at: text(at, "mass.mtx", HEADER + "9 9 5\n1 1 2.0\n"), "mass.mtx: is not a .mtx file that"),
         (lambda at: text(at, "mass.mtx", HEADER + "1 1 1\n1 1 2,0\n"), "mass.mtx: .*line 3 has ','"),
         (offsets_that_go_back, "mass.npz: is not a .npz file that can be read"),
         (bomb, "mass.npz: takes 1.2 GB of memory for 486 rows; must take 0.8 GB or less"),
         (lambda at: text(at, "blade.mas", "1 1 2.0e-03\n"), "holds no mass.mtx .*blade.mas of Calcul"),
-        (lambda at: entry(at, "stiffness_half", 4, 6, np.nan), r"half.npz: its entry \(5, 7\) is nan"),
-        (
-            lambda at: entry(at, "stiffness_max", 4, 6, times=1.01),
-            r"stiffness_max.npz: is not symmetric: its entry \((5, 7|7, 5)\) is",
-        ),
-        (
-            lambda at: matrix(at, "stiffness_rest", lambda m: m - 0.5 * sparse.diags_array(m.diagonal())),
-            "rest.npz: is not positive definite: it has negative eigenvalues",
-        ),
+        (lambda at: entry(at, "stiffness_half", lambda x: np.nan), r"half.npz: its entry \(5, 7\) is nan"),
+        (lambda at: entry(at, "stiffness_max", lambda x: 1.01 * x), r"max.npz: is not symm.*\((5, 7|7, 5)"),
+        (lambda at: entry(at, "stiffness_rest", lambda x: -x, 4), "rest.npz: is not positive definite: it"),
         (lambda at: nodes(at, lambda n: np.where(n == 3, 2, n)), "nodes.csv: 2 nodes have interface = 2"),
+        (lambda at: nodes(at, lambda n: np.where(n > 0, 9 - n, 0)), "node 1 is downstream of node 8"),
         (
-            lambda at: nodes(at, lambda n: np.where(n > 0, 9 - n, 0)),
-            "nodes.csv: interface node 1 is downstream of node 8; must be at the leading edge",
-        ),
-        (
-            lambda at: shutil.copy(at / "stiffness_half.npz", at / "stiffness_at_0.5.npz"),
-            "stiffness_at_0.5.npz: must be named after .* = 0.4",
+            lambda at: shutil.copy(at / "mass.npz", at / "stiffness_at_0.5.npz"),
+            "0.5.npz: must be named",
         ),
     ],
 )
@@ -214,14 +189,12 @@ def test_broken_folders_are_refused_with_file_and_culprit(folder, change, said):
     with pytest.raises(BadInput, match=said) as caught:
         imported(folder)
     assert str(caught.value).startswith(str(folder))
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
     ("source", "said"),
     [
         ({}, "file: missing; must be given, or matrices in its place"),
-        ({"matrices": "m", "file": "blade.inp"}, "file = blade.inp: must not be given beside matrices"),
         ({"matrices": "m", "root_set": "R"}, "root_set = R: must not be given beside matrices"),
         ({"file": "blade.inp", "matrix_units": "SI"}, "matrix_units = SI: must not be given beside file"),
     ],
@@ -232,7 +205,6 @@ def test_keys_that_do_not_go_together_are_refused(source, said):
 
 
 def test_one_negative_eigenvalue_among_many_is_found():
-    """Of a chain of masses on a wall."""
     n = 2000
     stiffness = sparse.diags_array([-np.ones(n - 1), 2 * np.ones(n), -np.ones(n - 1)], offsets=[-1, 0, 1])
     check_definite(sparse.csc_array(stiffness))
@@ -243,11 +215,7 @@ def test_one_negative_eigenvalue_among_many_is_found():
 
 
 PAGE = Path(__file__).parents[4] / "docs" / "how-to" / "bring_a_blade.md"
-
-
 MATRIX = np.array([[2.0, 0.5, -1.0], [0.5, 3.0, 0.0], [-1.0, 0.0, 4.0]])
-
-
 WRITTEN = {
     "abaqus.mtx": "** MASS\n7,1, 7,1, 2.0\n7,2, 7,1, 0.5\n7,2, 7,2, 3.0\n7,3, 7,1, -1.0\n7,3, 7,3, 4.0\n",
     "rows.mtx": "1 1 2.0\n1 2 0.5\n1 3 -1.0\n2 1 0.5\n2 2 3.0\n3 1 -1.0\n3 3 4.0\n",
@@ -264,3 +232,86 @@ def test_matrices_of_other_programs_become_matrix_market(name, tmp_path):
         (tmp_path / "blade.dof").write_text("7.3\n7.1\n7.2\n")
     subprocess.run([sys.executable, "convert.py", name, "out.mtx"], cwd=tmp_path, check=True)
     np.testing.assert_array_equal(mmread(tmp_path / "out.mtx").toarray(), MATRIX)
+
+
+STIFFNESS = ("stiffness_rest", "stiffness_half", "stiffness_max")
+ALL = ("mass", *STIFFNESS)
+
+
+def of_nodes(order):
+    return lambda n: (3 * order(np.arange(n))[:, None] + np.arange(3)).ravel()
+
+
+def exchange(nodes):
+    nodes[[-2, -9]] = nodes[[-9, -2]]
+    return nodes
+
+
+@pytest.mark.parametrize(
+    ("order", "names", "said"),
+    [
+        (lambda n: np.arange(3 * n).reshape(n, 3).T.ravel(), ALL, "mass.npz: .* all x, then all y"),
+        (
+            of_nodes(np.random.default_rng(0).permutation),
+            ALL,
+            "nodes.csv: must have the order of the matrices",
+        ),
+        (of_nodes(exchange), STIFFNESS[2:], r"stiffness_max.npz: differs from .* at \d+ nodes \(rows"),
+    ],
+    ids=["by direction", "as a solver renumbers", "two nodes at the highest speed exchanged"],
+)
+def test_matrices_in_another_order_are_refused(folder, order, names, said):
+    for path in (folder / f"{name}.npz" for name in names):
+        matrix = sparse.load_npz(path)
+        rows = order(matrix.shape[0] // 3)
+        sparse.save_npz(path, sparse.csc_array(matrix[rows][:, rows]))
+    with pytest.raises(BadInput, match=said):
+        imported(folder)
+
+
+def test_nodes_in_other_places_are_refused(folder):
+    table, places = pd.read_csv(folder / "nodes.csv"), ["x", "y", "z"]
+    exchanged, mirrored = table.copy(), table.assign(y=table.y.where(table.index != 149, -table.y))
+    exchanged.loc[[149, 150], places] = table.loc[[150, 149], places].to_numpy()
+    for changed, said in ((exchanged, "rows 150, 151: must be exchanged"), (mirrored, "row 150: must be in")):
+        changed.to_csv(folder / "nodes.csv", index=False)
+        with pytest.raises(BadInput, match=f"nodes.csv: {said}"):
+            imported(folder)
+
+
+def test_rounded_coordinates_lumped_mass_and_no_clamped_nodes_are_accepted(folder):
+    table = pd.read_csv(folder / "nodes.csv").round({"x": 5, "y": 5, "z": 5})
+    mass = sparse.load_npz(folder / "mass.npz").diagonal()
+    sparse.save_npz(folder / "mass.npz", sparse.diags_array(mass).tocsc())
+    table.to_csv(folder / "nodes.csv", index=False)
+    imported(folder)
+    table[table.clamped == 0].drop(columns="clamped").to_csv(folder / "nodes.csv")
+    imported(folder)
+
+
+@pytest.mark.parametrize("held", [(1.0, 1.0), (1.0, 1e-12), (1e20, 1e-12)])
+def test_numbers_on_the_diagonal_of_clamped_rows(folder, discrete, held):
+    """With ones dozens of modes at 1/2π Hz come first; a penalty puts them above all others."""
+    table = pd.read_csv(folder / "nodes.csv")
+    is_held = np.repeat(table.clamped.to_numpy() > 0, 3)
+    for path in folder.glob("stiffness_at_*"):
+        path.unlink()
+    for name in ALL:
+        full = sparse.lil_array((is_held.size, is_held.size))
+        full[np.ix_(~is_held, ~is_held)] = sparse.load_npz(folder / f"{name}.npz").toarray()
+        full[is_held, is_held] = held[name == "mass"]
+        sparse.save_npz(folder / f"{name}.npz", full.tocsc())
+    table.drop(columns="clamped").to_csv(folder / "nodes.csv", index=False)
+    if held[0] > 1:
+        assert imported(folder).blade.frequency[0] == pytest.approx(discrete.frequency[0], rel=1e-6)
+    else:
+        with pytest.raises(BadInput, match=rf"rest.npz: {is_held.sum()} coordinates are joined to no other"):
+            imported(folder)
+
+
+def test_an_indefinite_stiffness_at_speed_is_refused(folder, discrete):
+    path = folder / "stiffness_max.npz"
+    square = (2 * np.pi * discrete.frequency[:2].mean()) ** 2  # makes the first mode alone unstable
+    sparse.save_npz(path, sparse.csc_array(sparse.load_npz(path) - square * discrete.mass))
+    with pytest.raises(BadInput, match=r"stiffness_max.npz: is not positive definite: a mode"):
+        imported(folder)

@@ -5,7 +5,7 @@ from blade_parts import tetrahedral_mesh
 
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import EDGES
-from bladerub.extras.blades import file_source
+from bladerub.extras.blades import deck_material, file_source
 from bladerub.extras.blades.mesh_file import read
 from bladerub.extras.export.mesh_file import write_mesh_file
 
@@ -21,7 +21,7 @@ def sets(content):
     return {name: sorted(map(int, nodes)) for name, nodes in content.node_sets.items()}
 
 
-@pytest.mark.parametrize("suffix", [".inp", ".msh", ".vtu", ".VTU"])
+@pytest.mark.parametrize("suffix", [".inp", ".msh", ".VTU"])
 @pytest.mark.parametrize("make_mesh", [hexahedral_mesh, tetrahedral_mesh])
 def test_a_mesh_survives_its_file(make_mesh, suffix, tmp_path):
     mesh, cube = make_mesh(*CORNERS, bent)
@@ -35,10 +35,9 @@ def test_a_mesh_survives_its_file(make_mesh, suffix, tmp_path):
     assert sets(content) == {name: nodes.tolist() for name, nodes in named.items()}
 
 
-MESHES = [(hexahedral_mesh, "hexahedron"), (tetrahedral_mesh, "tetra")]
-
-
-@pytest.mark.parametrize(("make_mesh", "kind"), MESHES)
+@pytest.mark.parametrize(
+    ("make_mesh", "kind"), [(hexahedral_mesh, "hexahedron"), (tetrahedral_mesh, "tetra")]
+)
 def test_linear_elements_get_the_middles_of_their_edges(make_mesh, kind, tmp_path):
     mesh, _ = make_mesh(*CORNERS, lambda *cube: np.stack(cube))
     n_corners = mesh.cells.shape[1] - len(EDGES[mesh.cells.shape[1]])
@@ -141,7 +140,6 @@ TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1
     [
         ("m.step", "solid", "must be a mesh file that ends in .inp, .msh, .vtu"),
         ("m.msh", "** cgx\n*NODE, NSET=Nall\n", r"begins with \*NODE, .*: rename it to m.inp"),
-        ("m.inp", "\0", "is not text"),
         ("m.vtu", "<VTKFile>", "does not end with </VTKFile>"),
         ("m.inp", TETRAHEDRON, "has no volume elements"),
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D15\n" + WEDGE, "has wedge15.* into tetrahedra"),
@@ -150,7 +148,6 @@ TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 1, 4\n", "1 elements have"),
         ("m.inp", TETRAHEDRON + "*NGEN\n1, 6, 2\n", r"line 8: has \*NGEN, which makes nodes"),
         ("m.inp", TETRAHEDRON + "*INSTANCE, PART=A\n0, 5, 0\n", r"has \*INSTANCE, which moves its part"),
-        ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=b.inp\n", "line 8: it includes b.inp, which is not in"),
         ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=m.inp\n", "line 8: .* includes itself"),
         ("m.msh", GROUPS.format(line="TIP"), "has several physical groups TIP"),
     ],
@@ -159,3 +156,45 @@ def test_what_is_no_usable_mesh_is_told(name, text, said, tmp_path):
     (tmp_path / name).write_text(text)
     with pytest.raises(ValueError, match=said):
         read(tmp_path / name)
+
+
+STEEL = {"young_modulus": 2.1e11, "poisson_ratio": 0.3, "density": 7850.0}
+DECK = "*HEADING\nblade\n*MATERIAL, NAME={}\n*ELASTIC\n{}\n*DENSITY\n{}\n"
+
+
+@pytest.mark.parametrize(
+    ("unit", "elastic", "density"),
+    [
+        ("mm", "210000, 0.3", "7.85e-9"),
+        ("m", "2.1e11, .3,", "7850."),
+        ("ft", "4.385941188e9, 0.3", "15.23120"),
+    ],
+)
+def test_units_go_with_that_of_length(unit, elastic, density, tmp_path):
+    (tmp_path / "m.inp").write_text(DECK.format("Steel", elastic, density))
+    assert deck_material.read(tmp_path / "m.inp", unit) == pytest.approx(STEEL, rel=1e-4)
+
+
+def test_the_section_tells_which_material_is_the_blades_and_a_deck_may_have_none(tmp_path):
+    other = DECK.format("Nickel", "205000, 0.31", "8.2e-9")
+    section = '*Solid Section, elset=E, material="steel"\n'
+    (tmp_path / "m.inp").write_text(other + DECK.format("Steel", "** MPa\n210000, 0.3", "7.85e-9") + section)
+    assert deck_material.read(tmp_path / "m.inp", "mm") == pytest.approx(STEEL)
+    (tmp_path / "m.inp").write_text("*NODE\n1, 0, 0, 0\n")
+    assert deck_material.read(tmp_path / "m.inp", "mm") is None
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (DECK.format("A", "210000, 0.3", "7.85e-9") + DECK.format("B", "1e5, 0.3", "5e-9"), "materials A, B"),
+        ("*MATERIAL, NAME=A\n*ELASTIC\n210000, 0.3\n", "A has no .DENSITY"),
+        (DECK.format("A", "210000,0, 0,3", "7.85e-9"), "ELASTIC of A is 210000,0, 0,3, must be 2 numbers"),
+        (DECK.format("A", "210, 0.3", "7.85e-6"), "Young modulus of 210 is 2.1e.08 Pa with the unit mm"),
+        (DECK.format("A", "1, 2", "3").replace("IC", "IC, TYPE=ENGINEERING CONSTANTS"), "not isotr"),
+    ],
+)
+def test_what_is_not_one_isotropic_material_is_told(text, said, tmp_path):
+    (tmp_path / "m.inp").write_text(text)
+    with pytest.raises(ValueError, match=said):
+        deck_material.read(tmp_path / "m.inp", "mm")

@@ -1,3 +1,4 @@
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -5,9 +6,10 @@ import pytest
 
 from bladerub.contact.setup import strip_width
 from bladerub.extras.chart import search
-from bladerub.extras.chart.grid import nearest_speeds
-from bladerub.extras.chart.plan import chart_speeds
+from bladerub.extras.chart.grid import check, nearest_speeds
+from bladerub.extras.chart.plan import chart_speeds, columns, expected_minutes, in_words, plan
 from bladerub.extras.chart.search import next_speeds
+from bladerub.io.errors import BadInput
 from bladerub.study.grid import CoatingCase
 
 CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
@@ -29,10 +31,23 @@ def simulated(monkeypatch, make_result):
     return asked
 
 
-def test_the_search_encloses_the_peaks_and_judges_even_speeds_alone(few_speeds, blade, simulated):
+@pytest.fixture
+def on(few_speeds, blade):
+    return lambda speeds, case=CASE, *earlier: search.compute(
+        few_speeds, case, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2), *earlier
+    )
+
+
+def assert_same(point, other):
+    np.testing.assert_array_equal(point.spectrum_amplitude, other.spectrum_amplitude)
+    for name, values in other.measures.items():
+        np.testing.assert_array_equal(point.measures[name], values)
+
+
+def test_the_search_encloses_the_peaks_and_judges_even_speeds_alone(few_speeds, on, simulated):
     speeds = chart_speeds(few_speeds)
     np.testing.assert_allclose(speeds.f_omega[speeds.coarse], [0.16, 0.24, 0.32])
-    point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+    point = on(speeds)
     runs = [f_omega for f_omega, revolutions in simulated if revolutions == 20]
     assert runs[:3] == [0.16, 0.24, 0.32]
     assert sorted(runs) == list(point.f_omega[point.known])
@@ -43,7 +58,7 @@ def test_the_search_encloses_the_peaks_and_judges_even_speeds_alone(few_speeds, 
     assert np.isnan(judged[0.28])
 
 
-def test_searches_together_are_those_alone(few_speeds, blade, simulated):
+def test_searches_together_are_those_alone(few_speeds, blade, on, simulated):
     speeds = chart_speeds(few_speeds)
     C1 = np.sqrt(1 + 3 * speeds.f_omega**2)
     cases = [CASE, replace(CASE, E=5.0)]
@@ -56,41 +71,33 @@ def test_searches_together_are_those_alone(few_speeds, blade, simulated):
     searches = {case: search.search(few_speeds, case, blade, speeds, C1) for case in cases}
     together = dict(search.compute_together(searches, solve))
     for case in cases:
-        alone = search.compute(few_speeds, case, blade, speeds, C1)
-        np.testing.assert_array_equal(together[case].spectrum_amplitude, alone.spectrum_amplitude)
-        for name, values in alone.measures.items():
-            np.testing.assert_array_equal(together[case].measures[name], values)
+        assert_same(together[case], on(speeds, case))
     assert asked[0] == 2 * speeds.coarse.sum()  # both at once
     assert asked[-1] == 2  # the longer runs of those that grow, in the end
 
 
-def test_a_search_from_more_speeds_computes_what_an_earlier_one_did_not(few_speeds, blade, simulated):
-    speeds = chart_speeds(few_speeds)
-    C1 = np.sqrt(1 + 3 * speeds.f_omega**2)
-    far = nearest_speeds(few_speeds, 2)
-    earlier = search.compute(few_speeds, CASE, blade, far, C1)
+def test_a_search_from_more_speeds_computes_what_an_earlier_one_did_not(few_speeds, on, simulated):
+    speeds, far = chart_speeds(few_speeds), nearest_speeds(few_speeds, 2)
+    earlier = on(far)
     simulated.clear()
-    whole = search.compute(few_speeds, CASE, blade, speeds, C1)
+    whole = on(speeds)
     needed = len(simulated)
     simulated.clear()
-    again = search.compute(few_speeds, CASE, blade, speeds, C1, earlier)
+    again = on(speeds, CASE, earlier)
     assert len(simulated) < needed
     # runs that the earlier search found beside its even speeds were not judged there
     known = set(speeds.f_omega[earlier.known & ~(speeds.uniform & ~far.uniform)])
     assert not known & {f_omega for f_omega, _ in simulated}
-    np.testing.assert_array_equal(again.spectrum_amplitude, whole.spectrum_amplitude)
-    for name, values in whole.measures.items():
-        np.testing.assert_array_equal(again.measures[name], values)
-    fewer = search.compute(few_speeds, CASE, blade, far, C1, whole)  # judges its own even speeds alone
+    assert_same(again, whole)
+    fewer = on(far, CASE, whole)  # judges its own even speeds alone
     np.testing.assert_array_equal(fewer.measures["divergent"], earlier.measures["divergent"])
 
 
-def test_each_measure_is_that_of_its_run(few_speeds, make_result, blade, monkeypatch):
+def test_each_measure_is_that_of_its_run(few_speeds, make_result, blade, on, monkeypatch):
     result = make_result(order=4.0, amplitude=1e-3)
     result = replace(result, revolution_peak=result.revolution_peak + np.linspace(0, 1e-3, 20))
     monkeypatch.setattr(search, "simulate", lambda *_: result)
-    speeds = chart_speeds(few_speeds)
-    point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+    point = on(chart_speeds(few_speeds))
     f_omega, of = point.f_omega[point.known], {k: v[point.known] for k, v in point.measures.items()}
     assert of["peak"] == pytest.approx(2e-3, rel=1e-4)
     assert of["lobes"] == pytest.approx(4)
@@ -106,7 +113,6 @@ def test_each_measure_is_that_of_its_run(few_speeds, make_result, blade, monkeyp
 
 
 def looked_at(curve, step, share):
-    """Run a looked_at on a curve that is known everywhere: which speeds it looks at."""
     known = np.zeros(curve.size, dtype=bool)
     known[::step] = True
     while new := next_speeds(known, [np.where(known, curve, np.nan)], share):
@@ -128,3 +134,70 @@ def test_a_lower_maximum_is_looked_at_only_from_the_share_on():
     curve = np.where(place > 40, hidden, 100 - 2 * np.abs(place - 16.0))
     assert not looked_at(curve, 8, share=0.9)[47]
     assert looked_at(curve, 8, share=0.6)[47]
+
+
+@pytest.fixture
+def within(config):
+    def make(minutes, **keys):
+        config["chart"] |= {"minutes": minutes, **keys}
+        return plan(config)
+
+    return make
+
+
+@pytest.mark.parametrize("minutes", [2, 5, 30])
+def test_the_forecast_of_a_plan_is_within_its_minutes_and_no_more_fits(config, within, minutes):
+    chosen = within(minutes)
+    assert 0.75 * minutes < expected_minutes(config, chosen) <= minutes
+    assert (chosen.E[0], chosen.E[-1]) == (0.05, 50)
+    assert (chosen.K[0], chosen.K[-1]) == (0.02, 20)
+    assert [len(cases) for cases in columns(config).values()] == 2 * len(chosen.E) * [len(chosen.K)]
+
+
+def test_a_larger_budget_adds_to_a_smaller_one(within):
+    plans = [within(minutes) for minutes in (2, 4, 8, 16, 32)]
+    for small, large in itertools.pairwise(plans):
+        assert set(small.E) <= set(large.E)
+        assert set(small.K) <= set(large.K)
+        assert len(small.E) * len(small.K) < len(large.E) * len(large.K)
+    with pytest.raises(BadInput, match=r"chart.minutes = 1: must be at least 1\.\d for the ends"):
+        within(1)
+
+
+def test_the_whole_chart_comes_first_at_half_of_the_speeds(config, within):
+    whole = plan(config)
+    assert (whole.multiple, len(whole.E), len(whole.K)) == (1, 24, 24)
+    minutes = expected_minutes(config, whole)
+    assert within(minutes + 0.1) == whole
+    half = chart_speeds(config)
+    assert within(minutes - 0.1) == whole._replace(multiple=2)
+    fewer = chart_speeds(config)
+    assert set(fewer.f_omega[fewer.coarse]) < set(half.f_omega[half.coarse])
+    assert within(minutes / 8 - 1, cores=16) == whole._replace(multiple=2)
+
+
+def test_what_is_planned_is_said(config, within):
+    assert in_words(config).startswith("chart: 1,152 of 1,152 coatings; about ")
+    chosen = within(10)
+    coatings, minutes = 2 * len(chosen.E) * len(chosen.K), expected_minutes(config, chosen)
+    assert in_words(config).startswith(
+        f"chart: {coatings} of 1,152 coatings, at speeds 2 times as far apart; about {minutes:.1f} min on 2"
+    )
+
+
+def test_a_column_is_all_K_at_one_E_and_theta(config):
+    config["chart"] |= {"E": [0.11, 2], "K": [0.5, 5], "theta": [0.15]}
+    found = columns(config)
+    assert list(found) == ["2nd_E0.11_theta0.15", "2nd_E2_theta0.15"]
+    assert [(case.E, case.K) for case in found["2nd_E2_theta0.15"]] == [(2, 0.5), (2, 5)]
+
+
+def test_a_chart_has_speeds_of_the_study_and_crossings_of_its_orders(config):
+    config["casings"]["2nd"]["peak_orders"] = [4, 6]
+    check(config)
+    config["speeds"]["stop"] = 0.24
+    with pytest.raises(BadInput, match=r"speeds.stop = 0.24: must be at least 0.25 for the chart"):
+        check(config)
+    config["speeds"]["stop"] = config["chart"]["speeds"]["start"] = 0.3
+    with pytest.raises(BadInput, match=r"chart.speeds.start = 0.3: must be below speeds.stop = 0.3"):
+        check(config)

@@ -1,3 +1,4 @@
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -10,8 +11,6 @@ from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.paper import WORN
 
 CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
-
-
 SETTINGS = {"members": 8, "displacement": 1e-7, "seed": 1}
 
 
@@ -54,32 +53,19 @@ def made(study, coating, blade, make_result, monkeypatch, tmp_path):
     return make
 
 
-class TestStarts:
-    def test_they_lie_within_the_displacement_on_both_sides(self):
-        drawn = np.concatenate([ensemble.starts(SETTINGS, CASE, f, 50) for f in (0.1, 0.2, 0.3)])
-        assert np.abs(drawn).max() <= 1e-7
-        assert np.quantile(drawn, 0.1) < -5e-8
-        assert np.quantile(drawn, 0.9) > 5e-8
-
-    def test_more_members_leave_the_others(self):
-        more = ensemble.starts(SETTINGS, CASE, 0.2, 64)
-        np.testing.assert_array_equal(ensemble.starts(SETTINGS, CASE, 0.2, 8), more[:8])
-
-    def test_every_run_and_seed_has_its_own(self):
-        drawn = {
-            tuple(ensemble.starts(SETTINGS | {"seed": seed}, case, f, 4))
-            for seed in (1, 2)
-            for case in (CASE, replace(CASE, theta=0.15))
-            for f in (0.2, 0.21)
-        }
-        assert len(drawn) == 8
+def test_starts_lie_on_both_sides_and_are_those_of_their_run_and_seed_alone():
+    more = ensemble.starts(SETTINGS, CASE, 0.2, 100)
+    assert np.abs(more).max() <= 1e-7
+    assert np.quantile(more, 0.1) < -5e-8 < 5e-8 < np.quantile(more, 0.9)
+    np.testing.assert_array_equal(ensemble.starts(SETTINGS, CASE, 0.2, 8), more[:8])
+    settings, cases = (SETTINGS, SETTINGS | {"seed": 2}), (CASE, replace(CASE, theta=0.15))
+    of_each = itertools.product(settings, cases, (0.2, 0.21))
+    assert len({tuple(ensemble.starts(*of, 4)) for of in of_each}) == 8
 
 
 class TestChosen:
-    def test_peaks_and_their_neighbours_in_speed(self, study, coating):
+    def test_peaks_with_their_neighbours_in_speed_and_runs_whose_displacement_is_kept(self, study, coating):
         np.testing.assert_array_equal(chosen(study, coating), [0.15, 0.2, 0.25, 0.3, 0.35])
-
-    def test_runs_whose_displacement_is_kept(self, study, coating):
         study["analysis"]["histories"] = [{"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.1}]
         assert 0.1 in chosen(study, coating)
         study["analysis"]["histories"][0]["theta"] = 0.15
@@ -98,7 +84,7 @@ class TestChosen:
 
 
 class TestMake:
-    def test_a_member_is_the_study_s_run_from_another_start(self, made, study):
+    def test_a_member_is_the_study_s_run_from_another_start_and_each_is_repeated_finer(self, made, study):
         made()
         spec = made.specs[0]
         assert spec == replace(run_spec(study, CASE, 0.15), initial_displacement=spec.initial_displacement)
@@ -106,9 +92,6 @@ class TestMake:
         drawn = [spec.initial_displacement for spec in runs if spec.tolerance == 0.01]
         assert np.abs(drawn).min() > 0
         assert len(set(drawn)) == 10
-
-    def test_each_run_is_repeated_with_a_quarter_of_the_tolerance(self, made, study):
-        made()
         finer = [spec for spec in made.specs if spec.tolerance != 0.01]
         assert [spec.f_omega for spec in finer] == [0.15, 0.2, 0.25, 0.3, 0.35]
         assert finer[0] == replace(run_spec(study, CASE, 0.15), tolerance=0.0025)
@@ -123,10 +106,8 @@ class TestMake:
         study["ensemble"]["members"] = 3
         (made.runs / "0.2500_2.h5").unlink()
         made()
-        assert [spec.f_omega for spec in made.specs[before:] if spec.revolutions == 20] == [
-            *[0.25],
-            *[0.15, 0.2, 0.25, 0.3, 0.35],
-        ]
+        later = [spec.f_omega for spec in made.specs[before:] if spec.revolutions == 20]
+        assert later == [0.25, 0.15, 0.2, 0.25, 0.3, 0.35]
 
     def test_what_is_written_is_read_again(self, made, study):
         made()
@@ -157,9 +138,8 @@ def test_each_peak_has_three_speeds_and_each_history_its_own(config):
     config["ensemble"]["members"] = 2
     config["analysis"]["histories"] = []
     assert expected_cost(config, CASE) == (2 + 2) * 3 * 2
-    config["analysis"]["histories"] = [
-        {"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": f} for f in (0.1, 0.2)
-    ]
+    history = {"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0}
+    config["analysis"]["histories"] = [history | {"f_omega": f} for f in (0.1, 0.2)]
     assert expected_cost(config, CASE) == (2 + 2) * (2 + 3 * 2)
     config["ensemble"]["members"] = 0
     assert expected_cost(config, CASE) == 0

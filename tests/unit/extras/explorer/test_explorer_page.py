@@ -3,32 +3,78 @@ import dataclasses
 import gzip
 import hashlib
 import json
+import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from bladerub.extras.explorer import figures
 from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, parts
 from bladerub.extras.explorer.page import build
+from bladerub.study import divergence
 from bladerub.study.grid import CoatingCase
-from bladerub.study.manifest import write_manifest
+from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import write_map
 
-SETTINGS = {
-    "max_frequency": 2.5,
-    "amplitude_range": [2e-6, 3e-3],
-    "growth_revolutions": 10,
-    "spectrum_revolutions": 10,
-    "modulus_unit": 6e8,
-    "doubts": ["eq. (2) is up to 3.9 % off"],
-}
+DIVERGENCE = {"growth": 0.01, "revolutions": 10, "confidence": 0.95, "confirmation_revolutions": 30}
+
+
+@pytest.fixture
+def coating(make_map, case):
+    """Three speeds: steady; growing and repeated for longer; out of bounds in the sixth revolution."""
+    longer = np.full((3, 30), np.nan)
+    longer[1] = 1e-3 * 1.03 ** np.arange(30)
+    status = ["completed", "completed", "unbounded"]
+    made = make_map(case, {}, [0.1, 0.2, 0.3], [2, 4, 4], [0.0, 0.03, 0.2], status, 1e-3, longer)
+    made.revolution_amplitude[2, 6:] = np.nan
+    spectrum = 10 ** np.random.default_rng(3).uniform(-9, -2, (3, 301))
+    spectrum[2] = np.nan
+    spectra = {"spectrum_order": np.arange(301) / 10, "spectrum_amplitude": spectrum}
+    few = {"angle": made.angle[::40], "wear": made.wear[:, ::40], "wear_node": made.wear_node[..., ::40]}
+    return replace(made, **spectra, **few, revolution_peak=2 * made.revolution_amplitude)
+
+
+@pytest.fixture
+def verdicts(coating):
+    return divergence.table({"analysis": {"divergence": DIVERGENCE}}, [coating])
+
+
+@pytest.fixture
+def runs(coating):
+    by_speed = zip(coating.f_omega, coating.status, strict=True)
+    return [ManifestRow(f"{f:.4f}.h5", f, f"key-{f}", status, 1) for f, status in by_speed]
+
+
+def test_figures_are_those_of_the_tables(coating, verdicts, runs):
+    found = figures.of_runs(coating, verdicts, runs[::-1], spectrum_revolutions=10)
+    assert found["growth_per_revolution"] == verdicts["growth_per_revolution"].tolist()
+    assert found["divergent"] == verdicts["divergent"].tolist() == [False, True, True]
+    assert found["revolutions"] == [20, 30, 6]
+    assert found["run_key"] == ["key-0.1", "key-0.2", "key-0.3"]
+    assert found["peak"] == pytest.approx([2, 2 * 1.03**19, 2 * 1.2**5])  # mm
+    assert found["max_wear"] == [1e3 * float(depth) for depth in coating.max_wear]
+    strongest = coating.spectrum_amplitude[0, 5:].argmax() + 5  # from order 0.5 up
+    assert found["order"][0] == coating.spectrum_order[strongest]
+    assert found["order_amplitude"][0] == 1e3 * coating.spectrum_amplitude[0, strongest]
+    assert math.isnan(found["order_amplitude"][2])
+
+
+def test_the_command_that_repeats_a_run():
+    rigid = figures.command(CoatingCase.rigid("2nd", 0.15), [])
+    assert rigid == "bladerub run --casing 2nd --coating rigid --friction 0.15"
+    hostile = figures.command(CoatingCase("2; rm", 2.0, 1.0, 0.0), ["my study.yaml"])
+    assert hostile == "bladerub run --config 'my study.yaml' --casing '2; rm' --E 2 --K 1 --theta 0"
+
+
+SETTINGS = {"max_frequency": 2.5, "amplitude_range": [2e-6, 3e-3], "growth_revolutions": 10}
+SETTINGS |= {"spectrum_revolutions": 10, "modulus_unit": 6e8, "doubts": ["eq. (2) is up to 3.9 % off"]}
 
 
 @pytest.fixture
 def page(coating, verdicts, runs, tmp_path):
-    """Make the page of some coatings that share all but their case."""
-
     def make(*coatings):
         maps, manifests, tables, peaks = [], [], [], []
         for index, each in enumerate(coatings):
@@ -53,7 +99,7 @@ def test_what_is_packed_comes_back(coating, verdicts, runs):
     data = {name: gzip.decompress(base64.b64decode(text)) for name, text in packed.items()}
     numbers = json.loads(data["figures"])
 
-    steps = np.cumsum(np.frombuffer(data["wear"], np.uint8).reshape(3, 60), axis=1, dtype=np.uint8)
+    steps = np.cumsum(np.frombuffer(data["wear"], np.uint8).reshape(3, -1), axis=1, dtype=np.uint8)
     deepest = np.array(numbers["deepest"])[:, None]
     assert (np.abs(steps / 255 * deepest - 1e3 * coating.wear) <= deepest / 509).all()
 
@@ -77,7 +123,7 @@ def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
     text = page(coating, other)
     (study,) = scripts(text, "application/json")
     first, second = json.loads(study)["coatings"]
-    assert (first["name"], first["title"]) == (coating.case.name, "casing 2nd, E = 2, K = 0.5, θ = 0.15 rad")
+    assert first["name"] == coating.case.name
     assert (second["E"], second["rigid"], second["friction"]) == (None, True, 0.0)
     without = {"reason": None, "draws": None, "low": None, "high": None}
     assert first["peaks"] == [{"order": 4, "f": 0.2, "Y": 1.25} | without]
@@ -86,7 +132,7 @@ def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
     assert text == page(coating, other)
 
 
-def test_the_policy_lets_only_its_own_scripts_run(page, coating):
+def test_the_policy_lets_only_its_own_scripts_run_and_a_hostile_name_adds_no_markup(page, coating):
     text = page(coating)
     (policy,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', text)
     programs = re.findall(r"<script>(.*?)</script>", text, re.DOTALL) + scripts(text, "module")
@@ -94,9 +140,6 @@ def test_the_policy_lets_only_its_own_scripts_run(page, coating):
     assert len(digests) == 2
     assert f"script-src 'sha256-{digests[0]}' 'sha256-{digests[1]}';" in policy
     assert policy.startswith("default-src 'none';")
-
-
-def test_a_hostile_name_adds_no_markup(page, coating):
     hostile = '</script><script>alert(1)</script><img src="x">'
     text = page(dataclasses.replace(coating, case=CoatingCase(hostile, 2.0, 0.5, 0.15)))
     assert "alert(1)</script>" not in text

@@ -10,7 +10,6 @@ from bladerub.extras.rows.spec import Disk, Row
 
 
 def tip_at(blade, spec, instants):
-    """Displacements of the tip of a single blade (16, n) after so many elements."""
     return at_tip(blade, record(blade, spec, Row.even(1), instants).coordinates[:, 0].T)
 
 
@@ -25,7 +24,6 @@ def in_contact(request, spec, change):
 
 
 def test_the_tip_is_where_the_run_has_it(blade, in_contact):
-    """State of the time loop at the end of the run, with contact at the tip or without."""
     tip = tip_at(blade, in_contact, [100, 200 * in_contact.revolutions])[:, -1]
     rule, simulation = set_up(blade, in_contact)
     for _ in range(in_contact.revolutions):

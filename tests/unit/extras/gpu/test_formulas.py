@@ -1,7 +1,6 @@
-"""Formulas in Python become those of the GPU, or an error that names what cannot."""
-
 import ctypes
 import inspect
+import math
 import subprocess
 from types import ModuleType
 
@@ -10,9 +9,51 @@ import pytest
 
 from bladerub.contact import law as plastic
 from bladerub.contact.laws import NAMES, module_of, source_of
+from bladerub.contact.setup import set_up
 from bladerub.contact.spec import ElementLaw, TipProfile
 from bladerub.contact.tip import coverage, relief
 from bladerub.extras.gpu import batch, emulation, formulas
+from bladerub.extras.gpu.batch import refusal, variant_of
+from bladerub.extras.heat import LAYER
+from bladerub.extras.law_reading import described_law
+
+
+@pytest.mark.parametrize(
+    ("values", "reason"),
+    [
+        ({"E": math.inf, "K": math.inf}, "rigid casing"),
+        ({"law": "coulomb"}, "Coulomb"),
+        ({"scheme": "central_differences", "max_time_step": 2e-6}, "central_differences corrects"),
+        ({"element_law": described_law("thermal", LAYER)}, "thermal conducts heat"),
+        ({}, ""),
+    ],
+)
+def test_what_the_loop_can_not_do_is_said(values, reason, blade, spec, change):
+    changed = change(spec, **values)
+    told = refusal(changed, set_up(blade, changed)[1])
+    assert reason in told
+    assert bool(told) == bool(values)
+
+
+def test_the_window_of_elements_is_wide_enough(blade, spec, change):
+    for half_width in (1.0, 2.0, 2.5, 3.0, 6.0):
+        changed = change(spec, half_width=half_width)
+        rows = 4 * variant_of(changed, set_up(blade, changed)[1]).rows
+        farthest = rows - 2 * half_width - 1.5  # as in ``loop.cu``
+        assert math.floor(2 * half_width + farthest) + 2 <= rows  # at the worst place
+        assert farthest >= 0.5
+
+
+def test_runs_of_other_profiles_and_sizes_have_the_same_program(blade, spec, change):
+    def source_for(**changes):
+        changed = change(spec, **changes)
+        return batch.source(variant_of(changed, set_up(blade, changed)[1]))
+
+    same = source_for(half_width=1.2)
+    assert source_for(half_width=1.3) == same
+    assert source_for(half_width=1.2, n_elements=1500, revolutions=3) == same
+    assert source_for(half_width=2.6) != same
+
 
 WRAPPED = """
 extern "C" void evaluate(int n, const double* parameters, const double* given, double* found) {
@@ -37,9 +78,8 @@ def compiled(law: ModuleType, source: str, folder):
     lanes = (batch.FOLDER / "lanes.h").read_text()
     text, library = folder / "formulas.cpp", folder / "formulas.so"
     text.write_text("\n".join([lanes, formulas.of_contact(), formulas.of_law(law, source), WRAPPED]))
-    subprocess.run(
-        [emulation.COMPILER, "-O1", "-std=c++17", "-shared", "-fPIC", "-w", "-o", library, text], check=True
-    )
+    options = ["-O1", "-std=c++17", "-shared", "-fPIC", "-w", "-o"]
+    subprocess.run([emulation.COMPILER, *options, library, text], check=True)
     return ctypes.CDLL(str(library)).evaluate
 
 

@@ -1,5 +1,3 @@
-"""Heat in the coating: the columns, what a passage leaves in them, and the strength that is left."""
-
 import numpy as np
 import pytest
 
@@ -71,9 +69,5 @@ def test_two_shorter_rests_are_one():
     own.rest(twice, 0, N, 0.3)
     own.rest(twice, 0, N, 0.4)
     np.testing.assert_allclose(own.temperature(twice), own.temperature(once), atol=1e-9)
-
-
-def test_strength_falls_with_the_temperature_and_stays_above_0():
-    own = layer()
     strength = own.law.strength(own.coating, np.array([[0.0], [250.0], [1e4]]))
     np.testing.assert_allclose(strength.ravel(), [1.0, 0.75, 0.01])

@@ -8,7 +8,6 @@ import pytest
 from bladerub.contact import law
 from bladerub.contact.laws import NAMES, element_parameters, law_digest, module_of, source_of
 from bladerub.contact.run import simulate
-from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law, parameters_of
@@ -27,7 +26,6 @@ PLASTIC_LIMITS = [
     described_law("brittle", {"break_strain": 1e9}),
 ]
 OWN = ElementLaw("own", (), Path(law.__file__).read_text(encoding="utf-8"))
-"""The law of the paper as if it were a user's."""
 
 
 def named(law):
@@ -39,7 +37,6 @@ def coating(law):
 
 
 def pressed(law, depth, time_step=STEP):
-    """Module, parameters, force and increment of worn elements at a depth."""
     module = module_of(law)
     element = module.element(coating(law), AREA, time_step)
     return module, element, *module.return_mapping(element, depth, WORN)
@@ -63,13 +60,11 @@ def test_without_viscosity_or_breaking_a_law_is_plastic(law):
     np.testing.assert_allclose(found, of_plastic, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("name", "message"),
-    [("viscoplastic", "viscosity: missing"), ("elastic", "elastic: must be one of")],
-)
-def test_a_wrong_law_or_parameter_is_named(name, message):
-    with pytest.raises(ValueError, match=message):
-        described_law(name, {})
+def test_a_wrong_law_or_parameter_is_named():
+    with pytest.raises(ValueError, match="viscosity: missing"):
+        described_law("viscoplastic", {})
+    with pytest.raises(ValueError, match="elastic: must be one of"):
+        described_law("elastic", {})
 
 
 @pytest.mark.parametrize(
@@ -88,7 +83,6 @@ def test_parameters_are_read_without_running_the_law(source, message):
 @pytest.mark.slow
 @pytest.mark.nightly
 def test_the_law_of_the_paper_from_a_file_gives_the_same_bits(blade, spec, change):
-    compile_kernel(law=OWN)
     wanted, found = simulate(blade, spec), simulate(blade, change(spec, element_law=OWN))
     np.testing.assert_array_equal(found.wear, wanted.wear)
     np.testing.assert_array_equal(found.radial_displacement, wanted.radial_displacement)
@@ -102,7 +96,6 @@ def test_the_law_of_the_paper_from_a_file_gives_the_same_bits(blade, spec, chang
     ids=named,
 )
 def test_the_loop_agrees_with_the_reference(blade, spec, change, law):
-    """Each law as from a file that a config names."""
     own = dataclasses.replace(law, name="own", source=source_of(law))
     spec = change(spec, revolutions=1, element_law=own, steps_per_element=4)
     result = simulate(blade, spec)
@@ -131,7 +124,6 @@ def test_the_loop_heats_the_layer_as_the_reference_does(blade, spec, change, sch
 
 
 def user_law(element):
-    """A law of a file that is that of the paper with another `element`, in Python."""
     text = OWN.source.replace("def element(", "def of_paper(")
     text += "import math, sys\nimport numpy as np\nPARAMETERS = {}\n"
     text += "def element(coating, area, time_step=math.inf):\n    own = of_paper(coating, area)\n"
@@ -157,8 +149,5 @@ def test_what_is_no_parameters_is_refused(element, monkeypatch):
     monkeypatch.setattr("bladerub.extras.user_code.LONGEST_CALL", 0.5)
     with pytest.raises(ValueError, match=r"^law own: "):
         element_parameters(coating(user_law(element)), AREAS)
-
-
-def test_a_module_that_does_not_end_well_is_refused():
     with pytest.raises(ValueError, match="its module"):
         module_of(ElementLaw("own", (), "import sys; sys.exit(0)"))

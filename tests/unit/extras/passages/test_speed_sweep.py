@@ -8,14 +8,7 @@ from bladerub.contact.setup import set_up
 from bladerub.extras.passages.speed_sweep import simulate_sweep, speed_steps
 from bladerub.extras.passages.sweep_grid import SweepSpec
 
-N = 200
-"""Elements of the ring."""
-
-
-@pytest.fixture
-def away(spec, change):
-    """A casing that the blade never meets, and a blade that swings freely without damping."""
-    return change(spec, interference=-0.05, damping_ratio=0.0, revolutions=0, initial_displacement=1e-3)
+N = 200  # elements of the ring
 
 
 @pytest.mark.parametrize(("start", "end"), [(0.1, 0.3), (0.3, 0.1)])
@@ -57,12 +50,10 @@ RIGID = {"E": np.inf, "K": np.inf, "theta": 0.0, "max_time_step": 2e-6}
 def test_a_change_of_speed_by_nothing_changes_nothing(blade, spec, change, values, compared):
     """Against the rigid casing any two runs part ways soon after they differ at all."""
     run = change(spec, revolutions=3, **values)
-    whole = simulate(blade, run)
-    little = 1e-12
+    whole, little = simulate(blade, run), 1e-12
     rate = little * run.f_omega * 192.0 / 2  # in two revolutions
-    sweep = simulate_sweep(
-        blade, SweepSpec(change(run, revolutions=1), run.f_omega + little, rate, little / 8)
-    )
+    passage = SweepSpec(change(run, revolutions=1), run.f_omega + little, rate, little / 8)
+    sweep = simulate_sweep(blade, passage)
     assert whole.n_contact_steps > 100
     assert sweep.f_omega.size == 3
     worst = np.abs(sweep.radial_displacement - whole.radial_displacement)[:compared].max()
@@ -70,8 +61,10 @@ def test_a_change_of_speed_by_nothing_changes_nothing(blade, spec, change, value
     assert sweep.residual < 2 * whole.energy.residual
 
 
-def test_free_motion_is_that_of_the_equation_with_stiffness_in_time(blade, away, change):
+def test_free_motion_is_that_of_the_equation_with_stiffness_in_time(blade, spec, change):
     start, end, rate = 0.1, 0.4, 6.0
+    away = change(spec, f_omega=start, interference=-0.05, damping_ratio=0.0, revolutions=0)
+    away = change(away, initial_displacement=1e-3)
     _, shapes = mode_shapes_at(blade, start)
     rest = shapes[:, 0] * (1e-3 / at_tip(blade, shapes)[0, 0])
     n, inverse = rest.size, 1 / np.diag(blade.mass)
@@ -80,16 +73,13 @@ def test_free_motion_is_that_of_the_equation_with_stiffness_in_time(blade, away,
         force = blade.stiffness(min(start + rate * time, end)) @ state[:n]
         return np.concatenate([state[n:], -inverse * force])
 
-    duration = (end - start) / rate
-    time = np.linspace(0, duration, 4001)
-    exact = solve_ivp(
-        motion, (0, duration), np.concatenate([rest, 0 * rest]), "DOP853", time, rtol=1e-8, atol=1e-12
-    )
+    time, begin = np.linspace(0, (end - start) / rate, 4001), np.concatenate([rest, 0 * rest])
+    exact = solve_ivp(motion, time[[0, -1]], begin, "DOP853", time, rtol=1e-8, atol=1e-12)
     tip = at_tip(blade, exact.y[:n])[0]
     turned = 192.0 * (start * time + rate * time**2 / 2)
     errors = []
     for step in (8e-3, 4e-3, 2e-3):
-        sweep = simulate_sweep(blade, SweepSpec(change(away, f_omega=start), end, rate, step))
+        sweep = simulate_sweep(blade, SweepSpec(away, end, rate, step))
         x = (np.arange(sweep.radial_displacement.size) + 0.5) / N
         within = x < turned[-1]
         errors.append(np.abs(np.interp(x, turned, tip) - sweep.radial_displacement)[within].max() / 1e-3)
@@ -101,13 +91,11 @@ def test_a_tip_out_of_bounds_ends_the_sweep(blade, spec, change):
     run = change(spec, f_omega=0.25, revolutions=0, displacement_limit=3e-4)
     sweep = simulate_sweep(blade, SweepSpec(run, 0.35, 1.0, 1e-3))
     assert sweep.status == "unbounded"
-    assert "more than 0.0003 m" in sweep.message
     assert np.isnan(sweep.revolution_amplitude[-1])
     assert np.isfinite(sweep.residual)
 
 
 def test_the_ledger_closes_though_steps_change_their_angle(blade, spec, change):
-    """Moments are summed up by steps of other angles, sliding by distances: both give the same work."""
     run = change(spec, f_omega=0.15, theta=0.15, revolutions=1, steps_per_element=4, max_time_step=5e-6)
     sweep = SweepSpec(run, 0.3, 20.0, 0.01)
     angles = {set_up(blade, change(run, f_omega=f_omega))[1].angle_per_step for f_omega in (0.15, 0.2, 0.3)}

@@ -11,7 +11,9 @@ from bladerub.extras.chart import stiffening
 from bladerub.extras.passages.sweeps import SpeedSweep
 from bladerub.extras.plots.chart_moduli import QUANTITIES, chart_map
 from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
+from bladerub.extras.plots.friction import NONE, friction
 from bladerub.extras.plots.law_cycles import law_cycles
+from bladerub.extras.plots.steps import steps
 from bladerub.extras.plots.sweeps import sweeps
 from bladerub.study.grid import CoatingCase
 
@@ -26,7 +28,7 @@ def chart():
     return rows.assign(**dict.fromkeys(("Y4", "Y6", "peak", "worn_volume", "deepest_wear"), height))
 
 
-@pytest.mark.parametrize("quantity", [*QUANTITIES, "Y4", "f4", "Y6", "f6"])
+@pytest.mark.parametrize("quantity", [*QUANTITIES, "Y4", "f6"])
 def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, draws, quantity):
     panel, *_ = draws(chart_map(chart, quantity, 2e8)).axes
     dots, _, ridge = panel.lines
@@ -67,11 +69,8 @@ def cycle(stress):
 
 
 def test_each_law_has_a_panel_with_its_cycles_in_megapascals(draws):
-    panels = {
-        "(a) one": {"soft": cycle([0, 0.01, 0.01])},
-        "(b) two": {"slow": cycle([0, 0, 0.01]), "fast": cycle([0, 0.01, 0.02])},
-    }
-    slow, fast = draws(law_cycles(panels)).axes[1].lines
+    two = {"slow": cycle([0, 0, 0.01]), "fast": cycle([0, 0.01, 0.02])}
+    slow, fast = draws(law_cycles({"one": {"soft": cycle([0, 0.01, 0.01])}, "two": two})).axes[1].lines
     np.testing.assert_allclose(fast.get_xydata(), [[0, 0], [1, 6], [2, 12]])
     np.testing.assert_allclose(slow.get_ydata(), [0, 0, 6])
 
@@ -85,17 +84,14 @@ def sweep(direction, rate, status="completed"):
         amplitude[20:] = np.nan
     speed = SPEED if direction == "up" else SPEED[::-1]
     none = np.empty((0, 3))
-    return SpeedSweep(
-        CASE, direction, rate, status, 1e-5, 1e-4, speed, amplitude, none[:, 0], none[:, 0], SPEED[:3], none
-    )
+    spectra = none[:, 0], none[:, 0], SPEED[:3], none
+    return SpeedSweep(CASE, direction, rate, status, 1e-5, 1e-4, speed, amplitude, *spectra)
 
 
 def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws):
-    constant = SimpleNamespace(
-        f_omega=np.array([0.2, 0.3, 0.4]),
-        revolution_amplitude=np.array([[1e-4, 2e-4], [1e-3, 2e-3], [1e-4, 9e-3]]),
-        status=np.array(["completed", "completed", "unbounded"]),
-    )
+    amplitude = np.array([[1e-4, 2e-4], [1e-3, 2e-3], [1e-4, 9e-3]])
+    constant = SimpleNamespace(f_omega=np.array([0.2, 0.3, 0.4]), revolution_amplitude=amplitude)
+    constant.status = np.array(["completed", "completed", "unbounded"])
     drawn = [sweep("up", 0.05), sweep("down", 0.05), sweep("up", 0.2, "unbounded")]
     up, down = draws(sweeps(drawn, {CASE: constant})).axes
     np.testing.assert_allclose(up.lines[0].get_ydata(), [0.2, 2.0, 9.0])
@@ -104,3 +100,27 @@ def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws):
     np.testing.assert_allclose(down.lines[1].get_xdata(), SPEED[::-1])
     assert up.get_ylim()[1] == pytest.approx(1.08 * 2.0)  # the run that left all bounds is out of it
     assert up.get_xlim() == pytest.approx((0.14, 0.4))
+
+
+def test_errors_stand_over_steps_and_chaotic_runs_are_left_out():
+    tolerances, counts = [0.03, 0.01, np.nan], [2e3, 4e3, 8e3]
+    runs = pd.DataFrame({"E": [2.0, 2.0, 2.0, np.inf], "error": [1e-3, 3e-3, 0.5, 1e-4]})
+    runs["sensitive"] = runs.error > 0.1
+    finenesses = pd.DataFrame({"tolerance": tolerances, "steps_per_revolution": counts})
+    median, most = steps(finenesses.merge(runs, how="cross")).axes
+    of_E2 = next(line for line in median.get_lines() if line.get_label() == "E = 2")
+    np.testing.assert_allclose(of_E2.get_xdata(), [4e3, 2e3])
+    np.testing.assert_allclose(of_E2.get_ydata(), 2e-3)
+    of_E2 = next(line for line in most.get_lines() if line.get_label() == "E = 2")
+    np.testing.assert_allclose(of_E2.get_ydata(), 2.8e-3)
+    uniform = [line for line in median.get_lines() if line.get_marker() == "x"]
+    assert [line.get_xdata().tolist() for line in uniform] == [[8e3], [8e3]]
+
+
+def test_differences_by_friction_stand_over_the_speed():
+    coating = {"casing": "2nd", "E": 2.0, "K": 0.5, "theta": 0.15}
+    runs = {"f_omega": [0.15, 0.19], "difference": [-2e-3, 0.0], "slowest_sliding": [0.4, -0.1]}
+    difference, sliding = friction(pd.DataFrame(runs).assign(**coating)).axes
+    np.testing.assert_allclose(difference.get_lines()[0].get_ydata(), [2e-3, NONE])
+    np.testing.assert_allclose(sliding.get_lines()[0].get_ydata(), [0.4, -0.1])
+    assert sliding.get_ylim()[0] == pytest.approx(-0.11)

@@ -7,18 +7,12 @@ from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.build import build
 from bladerub.extras.refinement import tolerance as refinement
 
-REDUCTION = {
-    "f_omega_max": 0.8,  # so fast that eq. (2) is not enough
-    "modes_per_speed": 2,
-    "rank_tolerance": 1e-6,
-    "accuracy_speeds": 5,
-    "accuracy_modes": 7,
-}
+REDUCTION = {"modes_per_speed": 2, "rank_tolerance": 1e-6, "accuracy_speeds": 5, "accuracy_modes": 7}
+REDUCTION["f_omega_max"] = 0.8  # so fast that eq. (2) is not enough
 
 
 @pytest.fixture
 def reduced(twisted_config):
-    """Reduce the twisted blade with changes to the ``reduction`` block."""
     return lambda **changes: build({"blade": twisted_config, "reduction": REDUCTION | changes})
 
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import contextmanager
 from types import SimpleNamespace
 
 import pytest
@@ -20,13 +21,11 @@ from bladerub.io.errors import BadInput
 def workflow_with(tmp_path, monkeypatch):
     """What `start` sees of Snakemake's workflow."""
     monkeypatch.setenv("PYTHONPATH", "")
+    persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
 
     def workflow(limiter=None, local_exec=True):
-        return SimpleNamespace(
-            scheduler=SimpleNamespace(job_rate_limiter=limiter),
-            local_exec=local_exec,
-            persistence=SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list),
-        )
+        scheduler = SimpleNamespace(job_rate_limiter=limiter)
+        return SimpleNamespace(scheduler=scheduler, local_exec=local_exec, persistence=persistence)
 
     return workflow
 
@@ -40,6 +39,15 @@ def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(workflow_with
     assert (workflow.scheduler.job_rate_limiter is not None) == kept
 
 
+@contextmanager
+def handled_by(sign, handler):
+    before = signal.signal(sign, handler)
+    try:
+        yield
+    finally:
+        signal.signal(sign, before)
+
+
 def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds(workflow_with):
     lock, handled = threading.Lock(), threading.Event()
 
@@ -47,41 +55,30 @@ def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds(workflow_w
         if lock.acquire(timeout=2):  # Snakemake's waits for ever
             handled.set()
 
-    before = signal.signal(signal.SIGTERM, handler)
-    try:
+    with handled_by(signal.SIGTERM, handler):
         remedies.start(workflow_with(limiter=None), [])
         with lock:
             os.kill(os.getpid(), signal.SIGTERM)
         assert handled.wait(3)
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 def test_two_interrupts_in_a_row_are_one(monkeypatch):
     clock = iter([100.0, 100.3, 200.0])
     monkeypatch.setattr(remedies.time, "monotonic", lambda: next(clock))
-    before = signal.getsignal(signal.SIGINT)
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
+    with handled_by(signal.SIGINT, signal.default_int_handler):
         remedies.begin()
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def test_an_interrupt_before_the_first_line_of_a_script_prints_nothing(tmp_path):
     (tmp_path / "sitecustomize.py").write_text("print('of the environment')")
     folders = os.pathsep.join([str(remedies.START_OF_JOBS), str(tmp_path)])
-    done = subprocess.run(
-        [sys.executable, "-c", "raise KeyboardInterrupt"],
-        env=os.environ | {"PYTHONPATH": folders},
-        capture_output=True,
-        text=True,
-    )
+    command, environment = [sys.executable, "-c", "raise KeyboardInterrupt"], {"PYTHONPATH": folders}
+    done = subprocess.run(command, env=os.environ | environment, capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "of the environment\n", "")
 
 
@@ -107,14 +104,8 @@ sys.stdin.read()
 
 
 @pytest.fixture
-def other(tmp_path):
-    """Another process, which makes a and b of c."""
-    with subprocess.Popen(
-        [sys.executable, "-c", CLAIM, tmp_path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as process:
-        assert process.stdout.readline() == "False\n"
-        yield process
-        process.kill()
+def other(python_at_work, tmp_path):
+    return python_at_work(CLAIM, tmp_path)
 
 
 def test_who_makes_or_needs_what_another_makes_is_kept_out_until_it_dies(other, tmp_path):

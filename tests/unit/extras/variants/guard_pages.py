@@ -48,11 +48,7 @@ def guarded(array):
 def guard(law, n_nodes):
     """Let the modules of a law and width guard what they align, displacements and rows of addresses."""
     width = lanes.lanes_for(n_nodes)
-    for name in (
-        memory,
-        module_for(width, "numerics.memory"),
-        module_for(width, "numerics.memory", law),
-    ):
+    for name in (memory, module_for(width, "numerics.memory"), module_for(width, "numerics.memory", law)):
         name._aligned = guarded
     for kernel in {module_for(width, "contact.kernel.loop", law), loop}:
         plain = kernel.Simulation.integrate
@@ -71,7 +67,6 @@ def guard(law, n_nodes):
 
 
 def drawn_blade(rng, n_nodes):
-    """A stand-in with `n_nodes` at a drawn radius."""
     angle, x = np.sort(rng.uniform(-0.3, 0.3, n_nodes)), np.linspace(-0.02, 0.02, n_nodes)
     radius, cone = 10 ** rng.uniform(-2, 0.5), rng.uniform(-0.4, 0.4)
     slope = rng.normal(size=(n_nodes, 3 * n_nodes + 6)) * 10
@@ -79,7 +74,6 @@ def drawn_blade(rng, n_nodes):
 
 
 def drawn_spec(rng, law):
-    """A run of one or two revolutions, from harmless to one that leaves any limit."""
     change, spec = stand_in.change.__wrapped__(), stand_in.spec.__wrapped__()
     rigid = law.name == "plastic" and rng.random() < 0.25
     E = np.inf if rigid else 10 ** rng.uniform(-1, 3)

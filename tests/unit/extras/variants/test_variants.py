@@ -1,11 +1,36 @@
 import os
+import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from bladerub.contact.laws import module_for
+
+PROGRAM = Path(__file__).with_name("guard_pages.py")
+ALL = ["plastic", "plastic", "viscoplastic", "brittle", "thermal"]
+
+
+def guarded_runs(*arguments):
+    return subprocess.run([sys.executable, PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "arguments", [(12, 1, 8, "plastic"), pytest.param((500, 7, 32, *ALL), marks=pytest.mark.nightly)]
+)
+def test_no_access_outside_of_an_array(arguments):
+    done = guarded_runs(*arguments)
+    assert done.returncode == 0, done.stderr
+    assert "completed" in done.stdout
+    assert "unbounded" in done.stdout
+
+
+@pytest.mark.slow
+def test_an_access_outside_ends_by_a_signal():
+    assert guarded_runs("provoke").returncode == -signal.SIGSEGV
 
 
 def test_totals_of_sixteen_vectors():
@@ -39,7 +64,6 @@ print(sum(loop.integrate.stats.cache_misses.values()))
 
 
 def misses(program, *arguments, **environment):
-    """Number of functions that a process of its own compiles."""
     command = [sys.executable, "-c", program, *map(str, arguments)]
     done = subprocess.run(command, capture_output=True, text=True, env=os.environ | environment, check=True)
     return int(done.stdout)
@@ -50,7 +74,6 @@ def misses(program, *arguments, **environment):
     ("n_nodes", "law"), [pytest.param(12, "plastic", marks=pytest.mark.nightly), (8, "viscoplastic")]
 )
 def test_machine_code_of_another_process_is_used(n_nodes, law):
-    """Each job of a study is a process of its own, and compiling takes longer than most of them."""
     misses(ONE, n_nodes, law)
     assert misses(ONE, n_nodes, law) == 0
 
@@ -76,7 +99,6 @@ print(sum(kernel._integrate_row.stats.cache_misses.values()))
 @pytest.mark.slow
 @pytest.mark.nightly
 def test_rows_by_two_laws_leave_machine_code_that_later_processes_use(tmp_path):
-    """A later process has but one of the laws; where the code on disk is damaged, it is made anew."""
     folder = {"NUMBA_CACHE_DIR": str(tmp_path)}
     misses(ROWS, 0, **folder)
     assert misses(ROWS, 1, **folder) == 0

@@ -13,11 +13,7 @@ from bladerub.extras.variations.plan import Candidates, Part, Plan
 from bladerub.extras.variations.targets import TARGETS
 
 TARGET = {target.name: target for target in TARGETS}
-
-
 STUDY = {"contact": {"modulus_unit": 6e8}, "blade": {"hub_radius": 0.45}}
-
-
 EMPTY = Located.of({}, UNKNOWN)
 
 
@@ -95,32 +91,26 @@ def test_the_next_sets_are_plausible_and_far_from_each_other(plan, positions, em
 
 
 def verdicts(**holds):
-    """Table of the parts that hold in each set."""
     table = pd.DataFrame(holds).replace({True: "yes", False: "no"}).rename_axis("set").reset_index()
     return table.melt("set", var_name="id", value_name="holds")
 
 
 @pytest.fixture
-def nearest(measured):
-    """Number of the set that meets the targets best."""
-    return int(candidates.misfit(measured).idxmin())
-
-
-@pytest.fixture
-def chosen(plan, positions, measured, nearest):
+def chosen(plan, positions, measured):
     """Two parts of which both hold in set 7, one in set 3 and in the nearest, and none in the others."""
     table = pd.DataFrame(positions, index=measured.index, columns=["unit", "hub"])
     sets = np.arange(len(positions))
+    nearest = int(candidates.misfit(measured).idxmin())
     judged = verdicts(C4a=np.isin(sets, [3, 7]), C4b=np.isin(sets, [7, nearest]))
     return candidates.choose(plan, table, measured, judged)
 
 
-def test_the_best_sets_and_their_neighbours_are_chosen_beside_the_study_s_own(chosen, measured, nearest):
+def test_the_best_sets_and_their_neighbours_are_chosen_beside_the_study_s_own(chosen, measured):
     assert len(chosen) == 3 * 4
     themselves = chosen[chosen.neighbour == 0]
     assert themselves.set.iloc[0] == candidates.OWN
     misfit = candidates.misfit(measured)
-    assert list(themselves.set[1:]) == [7, nearest]
+    assert list(themselves.set[1:]) == [7, misfit.idxmin()]
     assert list(themselves.misfit) == list(misfit[themselves.set])
     for number in (0, 1, 2):
         itself, *others = chosen[chosen.candidate == number][["unit", "hub"]].to_numpy()
@@ -135,9 +125,8 @@ def test_parts_that_hold_are_counted_by_whether_they_were_matched(plan, chosen):
     rows += [(4, "C4a", "partly"), (4, "C6a", "no"), (4, "C1a", "yes"), (4, "C9a", "no")]
     judged = pd.DataFrame(rows, columns=["set", "id", "holds"]).assign(margin=0.0)
     counted = candidates.counts(long, candidates.verdicts(plan, judged))
-    counted = counted.set_index(["candidate", "neighbour"])
-    assert list(counted.loc[(0, 0)][["matched_yes", "predicted_yes", "yes", "parts"]]) == [1, 1, 3, 4]
-    assert list(counted.loc[(1, 0)][["matched_yes", "predicted_yes", "yes", "parts"]]) == [0, 0, 1, 4]
+    counted = counted.set_index(["candidate", "neighbour"])[["matched_yes", "predicted_yes", "yes", "parts"]]
+    assert counted.loc[[(0, 0), (1, 0)]].to_numpy().tolist() == [[1, 1, 3, 4], [0, 0, 1, 4]]
 
 
 def test_claims_that_hold_together_less_often_than_by_chance_exclude_each_other():
@@ -154,25 +143,23 @@ def smooth(x):
     return np.sin(4 * x[:, 0]) + x[:, 1] * x[:, 2]
 
 
-@pytest.fixture
-def places():
-    return np.random.default_rng(1).random((60, 4))
+PLACES = np.random.default_rng(1).random((60, 4))
 
 
-def test_a_smooth_function_is_predicted_between_the_sets_and_noise_is_not(places):
-    emulator = Emulator(places, smooth(places))
+def test_a_smooth_function_is_predicted_between_the_sets_and_noise_is_not():
+    emulator = Emulator(PLACES, smooth(PLACES))
     others = np.random.default_rng(2).random((200, 4))
     found = compared(smooth(others), emulator.predict(others))
     assert found.explained > 0.98
     assert found.within_two > 0.8
-    assert held_out(emulator, places, smooth(places)).explained > 0.95
+    assert held_out(emulator, PLACES, smooth(PLACES)).explained > 0.95
     noise = np.random.default_rng(4).standard_normal(60)
-    assert held_out(Emulator(places, noise), places, noise).explained < 0.4
+    assert held_out(Emulator(PLACES, noise), PLACES, noise).explained < 0.4
 
 
-def test_scatter_is_part_of_the_predicted_deviation(places):
+def test_scatter_is_part_of_the_predicted_deviation():
     rng = np.random.default_rng(3)
-    emulator = Emulator(places, smooth(places) + 0.3 * rng.standard_normal(60))
+    emulator = Emulator(PLACES, smooth(PLACES) + 0.3 * rng.standard_normal(60))
     others = rng.random((400, 4))
     scattered = smooth(others) + 0.3 * rng.standard_normal(400)
     predicted = emulator.predict(others)

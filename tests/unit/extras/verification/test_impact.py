@@ -1,5 +1,3 @@
-"""Impacts of a single mode on a wall, in closed form."""
-
 import dataclasses
 
 import numpy as np
@@ -10,6 +8,7 @@ from bladerub.extras.verification import impact
 
 impact._march.enable_caching()  # as in tests/validation/test_rotor37_reference.py: one of both compiles it
 OMEGA, DISTANCE = 2 * np.pi * 50.0, 1e-3
+MODES = Modes(np.array([OMEGA]), np.repeat([[1.0], [0.0]], 8, axis=0), 8)
 
 
 @pytest.fixture
@@ -22,23 +21,15 @@ def run(blade, spec):
     return dataclasses.replace(spec, casing=casing, initial_displacement=-DISTANCE, **values)
 
 
-@pytest.fixture
-def modes():
-    tip = np.zeros((16, 1))
-    tip[:8] = 1.0
-    return Modes(np.array([OMEGA]), tip, 8)
-
-
 def turning_points(motion):
-    """Largest distances from the wall, one for each flight."""
     u = motion.radial_displacement
     low = (u[1:-1] < u[:-2]) & (u[1:-1] <= u[2:]) & (u[1:-1] < -1e-6)
     return -u[1:-1][low]
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.5, 0.9, 1.0])
-def test_each_impact_keeps_its_share_of_the_velocity(run, modes, blade, restitution):
-    rule = impact.moreau_jean(modes, 0.0, impact.time_step(blade, run), restitution)
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_each_impact_keeps_its_share_of_the_velocity(run, blade, restitution):
+    rule = impact.moreau_jean(MODES, 0.0, impact.time_step(blade, run), restitution)
     motion = impact.simulate(rule, blade, run)
     if restitution == 0:  # it stays at the wall
         half = motion.radial_displacement.size // 2
@@ -48,8 +39,8 @@ def test_each_impact_keeps_its_share_of_the_velocity(run, modes, blade, restitut
         np.testing.assert_allclose(turning_points(motion)[:8], expected, rtol=0.03)
 
 
-def test_a_stiff_spring_returns_the_velocity(run, modes, blade):
+def test_a_stiff_spring_returns_the_velocity(run, blade):
     run = dataclasses.replace(run, steps_per_element=400)  # the force acts at the end of a step: it damps
-    rule = impact.penalty(modes, 0.0, impact.time_step(blade, run), 50 * OMEGA**2)
+    rule = impact.penalty(MODES, 0.0, impact.time_step(blade, run), 50 * OMEGA**2)
     found = turning_points(impact.simulate(rule, blade, run))
     np.testing.assert_allclose(found[:8], DISTANCE, rtol=0.03)

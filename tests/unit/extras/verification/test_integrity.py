@@ -1,5 +1,3 @@
-"""Whatever a study keeps is checked: by three writers of files, of which each is damaged in many places."""
-
 import errno
 import os
 import random

@@ -4,6 +4,7 @@ import math
 import pandas as pd
 import pytest
 
+from bladerub.extras.verification import accuracy
 from bladerub.extras.verification.compare import compare
 from bladerub.extras.verification.differences import Differences
 from bladerub.extras.verification.report import report
@@ -62,3 +63,31 @@ def test_numbers_agree_within_twice_the_uncertainty_of_both(tmp_path, f1, uncert
     assert found.agrees.tolist() == [agrees, True, True]
     assert found.number.tolist() == ["f1", "f2", "share"]
     assert found.allowed[0] == pytest.approx(2 * math.hypot(0.5, uncertainty or 0), rel=1e-3)
+
+
+RUNS = [StudyRun(CoatingCase("2nd", 2.0, 0.5, 0.15), 0.1 + 0.01 * number) for number in range(12)]
+
+
+def drawn(run):
+    """A run that is beyond one percent, and sensitive, above 0.2."""
+    if run.f_omega > 0.2:
+        return verified(
+            run.f_omega, 0.02, 0.001, 0.002, run=run, spread=Differences(0.015, 0.0, 0.0), speedup=None
+        )
+    return verified(run.f_omega, 0.001, run=run, speedup=200.0)
+
+
+def test_a_row_holds_errors_what_starts_change_and_cost(monkeypatch):
+    monkeypatch.setattr(accuracy, "verify_runs", lambda blade, config, runs: map(drawn, runs))
+    lines = []
+    table = accuracy.table(None, {}, {"all": RUNS, "important": RUNS[-2:]}, lines.append)
+    assert len(lines) == len(table) == 3 * 12 + 2  # drawn thrice
+    row = table[table.f_omega > 0.2].iloc[0]
+    assert (row.E, row.K, row.theta, row.law, row.status) == (2.0, 0.5, 0.15, "theta", "completed")
+    assert (row.error_wear_l2, row.error_revolution_peak, row.start_wear_l2) == (0.02, 0.002, 0.015)
+    assert row.sensitive
+    assert row.cpu_s == 0.25
+    within = table[table.f_omega < 0.2].iloc[0]
+    assert math.isnan(within.start_wear_l2)
+    assert not within.sensitive
+    assert within.speedup_at_equal_error == 200.0

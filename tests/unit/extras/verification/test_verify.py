@@ -6,15 +6,8 @@ import numpy as np
 import pytest
 
 from bladerub.extras.verification import verify
-from bladerub.extras.verification.differences import Differences
-from bladerub.extras.verification.verify import (
-    NEIGHBOURS,
-    StudyRun,
-    VerifiedRun,
-    important_runs,
-    speedup_at_equal_error,
-    verify_run,
-)
+from bladerub.extras.verification.differences import UNBOUNDED, Differences, differences
+from bladerub.extras.verification.verify import NEIGHBOURS, StudyRun, VerifiedRun
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.maps import write_map
 
@@ -22,19 +15,18 @@ from bladerub.study.maps import write_map
 class Solver:
     """Stands in for `simulate`: relative errors of a known law in the time step, in wear and peaks."""
 
+    neighbour = 0.0  # relative change by any initial displacement
+
     def __init__(self, make_result):
-        self.make_result = make_result
+        self.make_result, self.specs = make_result, []
         self.exponential = lambda step: 2e9 * step**2
-        self.paper = lambda step: 2e4 * step
-        self.neighbour = 0.0  # relative change by any initial displacement
-        self.specs = []
 
     def __call__(self, blade, spec):
         self.specs.append(spec)
         passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
         steps = max(spec.steps_per_element, math.ceil(passage / spec.max_time_step))
         step = passage / steps
-        error = (self.exponential if spec.scheme == "exponential" else self.paper)(step)
+        error = (self.exponential if spec.scheme == "exponential" else lambda step: 2e4 * step)(step)
         error += self.neighbour * (spec.initial_displacement != 0)
         result = self.make_result(amplitude=1e-3 * (1 + error), depth=2e-4 * (1 + error))
         return replace(result, time_step=step, energy=SimpleNamespace(residual=1e-4))
@@ -48,14 +40,13 @@ def config(config):
 
 @pytest.fixture
 def solver(monkeypatch, make_result):
-    stand_in = Solver(make_result)
-    monkeypatch.setattr(verify, "simulate", stand_in)
-    return stand_in
+    monkeypatch.setattr(verify, "simulate", Solver(make_result))
+    return verify.simulate
 
 
 @pytest.fixture
 def verified(blade, config, case, solver):
-    return lambda: verify_run(blade, config, StudyRun(case, 0.19))
+    return lambda: verify.verify_run(blade, config, StudyRun(case, 0.19))
 
 
 def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config, make_map, tmp_path):
@@ -64,7 +55,7 @@ def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config,
     config["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.05, "extra": []}
     coating = make_map(case, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, speeds(config))
     write_map(tmp_path / f"{case.name}.h5", coating, {})
-    runs = important_runs(config, tmp_path)
+    runs = verify.important_runs(config, tmp_path)
     assert {run.case for run in runs} == {case}
     np.testing.assert_allclose([run.f_omega for run in runs], [0.15, 0.2, 0.25, 0.3, 0.35])
 
@@ -78,10 +69,8 @@ def test_errors_of_known_order(blade, verified, solver):
     own = 2e4 * paper_step
     assert verified.paper_uncertainty == pytest.approx(Differences(*3 * [own / (1 + own)]))
     assert verified.against_paper == pytest.approx(Differences(*3 * [abs(16 * fine - own) / (1 + own)]))
-    assert verified.status == "completed"
-    assert verified.energy_residual == 1e-4
+    assert (verified.status, verified.energy_residual, verified.spread) == ("completed", 1e-4, None)
     assert not verified.is_beyond
-    assert verified.spread is None
     assert not verified.is_sensitive
 
 
@@ -113,4 +102,34 @@ def test_sensitive_is_what_spreads_half_as_much_in_all_that_is_beyond(error, spr
 def test_speed_up_between_a_second_order_and_a_first_order_scheme():
     error, paper_error = 2e9 * 2e-6**2, 2e5 * 3e-7
     expected = 4.0 * (3e-7 / 4) / (error / 2e5) / 0.25  # at the step of equal error
-    assert speedup_at_equal_error(error, 0.25, paper_error, paper_error / 4, 4.0) == pytest.approx(expected)
+    found = verify.speedup_at_equal_error(error, 0.25, paper_error, paper_error / 4, 4.0)
+    assert found == pytest.approx(expected)
+
+
+@pytest.fixture
+def compare(config):
+    return lambda outcome, reference: differences([outcome], [reference], config["analysis"])
+
+
+def test_each_difference_is_relative_to_the_reference_and_of_wear_at_its_place(make_result, compare):
+    reference = make_result(amplitude=1e-3, depth=2e-4)
+    found = compare(make_result(amplitude=1.02e-3, depth=2.1e-4), reference)
+    assert found == pytest.approx(Differences(wear_l2=0.05, peak=0.02, revolution_peak=0.02))
+    turned = replace(reference, wear=np.roll(reference.wear, 1000 // 6, axis=1))  # into valleys of 6 lobes
+    assert compare(turned, reference).wear_l2 == pytest.approx(math.sqrt(2), rel=0.01)
+
+
+@pytest.mark.parametrize(("first", "second"), [(None, 3), (3, None), (3, 3)])
+def test_nothing_is_said_of_an_unbounded_run(make_result, compare, first, second):
+    assert compare(make_result(complete=first), make_result(complete=second)) == UNBOUNDED
+
+
+def test_the_peaks_of_a_row_are_related_to_the_blade_that_vibrates_most(make_result, config):
+    def row(large, small):
+        wear = make_result(depth=2e-4)
+        return [replace(make_result(amplitude=of), wear=wear.wear) for of in (small, large)]
+
+    found = differences(row(1e-3, 2e-5), row(1e-3, 1e-5), config["analysis"])
+    assert found == pytest.approx(Differences(0.0, 0.01, 0.01), rel=1e-6)
+    one = row(1e-3, 1e-5)[0]
+    assert differences([one], [one], config["analysis"]) == Differences(0.0, 0.0, 0.0)
