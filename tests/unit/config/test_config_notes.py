@@ -89,11 +89,9 @@ def test_the_orders_and_histories_of_the_paper_are_those_of_the_study():
     ("diameters", "weights", "start", "orders"),
     [
         ([3], [1], 0.02, [6, 9]),
-        ([6], [1], 0.02, [6, 12]),
         ([3, 5], [1, 1], 0.02, [5, 6]),
         ([2, 5], [0, 1], 0.02, [5, 10]),
         ([2], [1], 0.2, [4]),  # 6 times 0.2 is above C1
-        ([1], [1], 0.02, None),
         ([2, 5], [1, 1], 0.02, None),
     ],
 )

@@ -36,20 +36,8 @@ def test_an_id_is_taken_once_and_of_one_form(registered, id_):
         claim(id_, "another")
 
 
-@pytest.mark.parametrize(
-    ("judge", "value", "expected"),
-    [
-        (below, 1.0, ("yes", 0.0)),
-        (below, 1.5, ("partly", -0.5)),
-        (below, 2.0, ("partly", -1.0)),
-        (below, 2.25, ("no", -1.25)),
-        (above, 1.0, ("yes", 0.0)),
-        (above, 0.75, ("partly", -0.25)),
-        (above, 0.5, ("partly", -0.5)),
-        (above, 0.25, ("no", -0.75)),
-    ],
-)
-def test_verdicts_at_their_borders(judge, value, expected):
-    partly = 2.0 if judge is below else 0.5
-    assert judge(value, 1.0, partly) == expected
-    assert judge(float("nan"), 1.0, partly)[0] == "no"
+@pytest.mark.parametrize(("judge", "sign"), [(below, 1), (above, -1)])
+def test_verdicts_at_their_borders(judge, sign):
+    for value, expected in ((1.0, "yes"), (1.5, "partly"), (2.0, "partly"), (2.25, "no")):
+        assert judge(sign * value, sign * 1.0, sign * 2.0) == (expected, 1.0 - value)
+    assert judge(float("nan"), 1.0, 2.0)[0] == "no"

@@ -36,7 +36,6 @@ def measure(id_, evidence):
 
 
 def is_measured(id_, evidence):
-    """Whether the study shows a claim."""
     try:
         measure(id_, evidence)
     except findings.NotMeasurable:
@@ -51,13 +50,8 @@ def check(id_, evidence, measured, holds="partly"):
 
 def either_side(yes, partly):
     """Values just inside and just outside of the two borders of a verdict, and the verdict on each."""
-    inside, outside = (0.999, 1.02) if yes < partly else (1.001, 0.98)
-    return [
-        (inside * yes, "yes"),
-        (outside * yes, "partly"),
-        (inside * partly, "partly"),
-        (outside * partly, "no"),
-    ]
+    near, far = (0.999, 1.02) if yes < partly else (1.001, 0.98)
+    return [(near * yes, "yes"), (far * yes, "partly"), (near * partly, "partly"), (far * partly, "no")]
 
 
 def peak_rows(*rows):
@@ -267,20 +261,11 @@ def test_shift_of_the_tilted_peak(evidence, id_, order, shift, holds):
     check(id_, evidence(peaks=table), shift, holds)
 
 
-RUNS = {  # coating and speed of each claim; our f6 is 0.18 and 0.2
-    "C11a": (TILTED, 0.19),
-    "C11b": (STRAIGHT, 0.197),
-    "C11c": (STRAIGHT, 0.19),
-    "C11d": (TILTED, 0.197),
-    "C11e": (TILTED, 0.19),
-    "C11f": (STRAIGHT, 0.197),
-    "C11g": (TILTED, 0.18),
-    "C11h": (STRAIGHT, 0.2),
-    "C11i": (STRAIGHT, 0.18),
-    "C11j": (TILTED, 0.2),
-    "C11k": (TILTED, 0.18),
-    "C11l": (STRAIGHT, 0.2),
-}
+PLACES = [(TILTED, 0.19), (STRAIGHT, 0.197), (STRAIGHT, 0.19), (TILTED, 0.197)]
+PLACES += [*PLACES[:2], (TILTED, 0.18), (STRAIGHT, 0.2), (STRAIGHT, 0.18), (TILTED, 0.2)]
+PLACES += PLACES[6:8]
+RUNS = {f"C11{part}": place for part, place in zip("abcdefghijkl", PLACES, strict=True)}
+"""Coating and speed of each claim; our f6 is 0.18 and 0.2."""
 
 
 def judged_run(evidence, id_, **run):

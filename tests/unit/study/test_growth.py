@@ -65,11 +65,6 @@ def test_growth_is_above_the_threshold_and_outgrows_what_was_before(amplitude, g
     assert growth(amplitude, SETTINGS).grows == grows
 
 
-@pytest.mark.parametrize(("scatter", "least"), [(0.02, 1.0), (0.05, 0.8), (0.1, 0.2)])
-def test_growth_of_three_percent_shows_through_the_scatter_of_real_runs(scatter, least):
-    assert share(scattered(1.03**NUMBER, scatter)) >= least
-
-
 @pytest.mark.parametrize("scatter", [0.001, 0.05, 0.2])
 def test_steady_and_decaying_runs_do_not_grow(scatter):
     assert share(scattered(np.ones(20), scatter)) <= 0.02
@@ -95,41 +90,28 @@ def test_saturation_levels_off_while_it_bends_and_is_steady_before_or_in_the_lon
         assert growth(saturation(NUMBER, tau), SETTINGS)[3:] == (True, False)
     assert not any(growth(saturation(NUMBER, tau), SETTINGS).grows for tau in (1, 3, 5))
     assert not any(growth(saturation(LONG, tau), SETTINGS).grows for tau in (10, 20, 45))
-
-
-@pytest.mark.parametrize("scatter", [0, 0.01, 0.1])
-def test_growth_that_lasts_or_quickens_does_not_level_off(scatter):
-    assert share(scattered(1.05**NUMBER, scatter), "levels_off") <= 0.05
+    assert share(scattered(1.05**NUMBER, 0.1), "levels_off") <= 0.05  # growth that lasts, or quickens
     assert growth(np.exp(2e-3 * NUMBER**2), SETTINGS)[3:] == (True, False)
 
 
 @pytest.mark.parametrize(
-    ("amplitude", "status", "longer", "divergent", "saturating", "revolutions"),
+    ("amplitude", "status", "longer", "expected"),  # saturating, divergent, revolutions
     [
-        (0.5**NUMBER, "unbounded", None, True, False, 20),  # whatever the fit
-        (np.array([1.0, np.nan, np.nan]), "unbounded", None, True, False, 1),
-        (saturation(NUMBER, 8), "completed", None, False, True, 20),
-        (saturation(NUMBER, 20), "completed", None, True, False, 20),
-        (saturation(NUMBER, 20), "completed", saturation(LONG, 20), False, True, 60),
-        (1.03**NUMBER, "completed", 1.03**LONG, True, False, 60),
-        (1.03**NUMBER, "completed", np.where(LONG < 42, 1.0, np.nan), True, False, 41),
+        (np.array([0.5, np.nan, np.nan]), "unbounded", None, (False, True, 1)),  # whatever the fit
+        (saturation(NUMBER, 8), "completed", None, (True, False, 20)),
+        (saturation(NUMBER, 20), "completed", None, (False, True, 20)),
+        (saturation(NUMBER, 20), "completed", saturation(LONG, 20), (True, False, 60)),
+        (1.03**NUMBER, "completed", 1.03**LONG, (False, True, 60)),
+        (1.03**NUMBER, "completed", np.where(LONG < 42, 1.0, np.nan), (False, True, 41)),
     ],
 )
-def test_the_longer_run_decides_and_leaving_all_bounds_is_divergence(
-    amplitude, status, longer, divergent, saturating, revolutions
-):
-    verdict = judge(amplitude, status, SETTINGS, longer)
-    assert (verdict.divergent, verdict.saturating, verdict.revolutions) == (
-        divergent,
-        saturating,
-        revolutions,
-    )
+def test_the_longer_run_decides_and_leaving_all_bounds_is_divergence(amplitude, status, longer, expected):
+    assert judge(amplitude, status, SETTINGS, longer)[1:4] == expected
 
 
 def test_completed_runs_that_grow_need_confirmation_if_wanted():
     assert needs_confirmation(1.03**NUMBER, "completed", SETTINGS)
     assert needs_confirmation(saturation(NUMBER, 8), "completed", SETTINGS)
-    assert not needs_confirmation(np.ones(20), "completed", SETTINGS)
     assert not needs_confirmation(1.03**NUMBER, "unbounded", SETTINGS)
     assert not needs_confirmation(1.03**NUMBER, "completed", SETTINGS | {"confirmation_revolutions": 0})
     assert not needs_confirmation(1.03 ** np.arange(60), "completed", SETTINGS)  # as long as a longer run

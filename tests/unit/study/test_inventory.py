@@ -26,12 +26,7 @@ def done(simulated, growing, compute, tmp_path):
 
 @pytest.fixture
 def look(study, case, tmp_path):
-    """Counts and damaged files."""
-
-    def taken(digest="blade", **arguments):
-        return take(study, coating_plan(study, case), tmp_path, digest, **arguments)
-
-    return taken
+    return lambda **arguments: take(study, coating_plan(study, case), tmp_path, "blade", **arguments)
 
 
 @pytest.fixture

@@ -1,5 +1,3 @@
-"""Several runs at once."""
-
 import threading
 import time
 

@@ -13,8 +13,8 @@ def sine(order, revolutions=20, amplitude=1.0, phase=0.3):
     return amplitude * np.sin(2 * np.pi * order * time + phase)
 
 
-def spectrum(u, revolutions=20, spectrum_revolutions=10, max_order=24.0):
-    return order_spectrum(u, revolutions, spectrum_revolutions, max_order)
+def spectrum(u):
+    return order_spectrum(u, 20, 10, 24.0)
 
 
 @pytest.mark.parametrize("order", [1, 4, 6, 6.1, 23.9])
@@ -98,7 +98,7 @@ def test_a_rough_pattern_has_as_many_peaks_as_the_library_finds(angle, seed):
         assert lobes(angle, wear, prominence) == len(expected) > 0
 
 
-@pytest.mark.parametrize("count", [1, 10, 1000])
+@pytest.mark.parametrize("count", [1, 1000])
 def test_one_harmonic_has_all_of_the_variance(angle, count):
     assert dominant_harmonic(1e-3 * (1.5 + np.sin(count * angle + 0.3))) == (count, pytest.approx(1.0))
 
