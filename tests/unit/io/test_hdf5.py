@@ -24,30 +24,24 @@ def test_xarray_opens_the_file(tmp_path):
     with xr.open_dataset(path, engine="h5netcdf", phony_dims="sort") as dataset:
         assert dataset.wear.dims == ("node", "angle")
         np.testing.assert_array_equal(dataset.wear.angle, VARIABLES["angle"].data)
-        assert dataset.wear.attrs["units"] == "m"
-        assert dataset.wear.attrs["long_name"] == "worn depth"
-        assert dataset.attrs.keys() == {"casing", "E", hdf5.CHECKSUM}
-        assert (dataset.attrs["casing"], dataset.attrs["E"]) == ("2nd", 2.0)
+        assert {("units", "m"), ("long_name", "worn depth")} <= dataset.wear.attrs.items()
+        assert dataset.attrs == {"casing": "2nd", "E": 2.0, hdf5.CHECKSUM: dataset.attrs[hdf5.CHECKSUM]}
         assert dataset.energy == 3.5
 
 
 def test_files_with_repeated_values_hold_their_own(tmp_path):
     text = Variable(("node",), np.array(["tip", "Bürste"]), "1", "name of a node")
     long = Variable(("step",), np.arange(2000.0), "m", "peak")  # compressed
-    variables = VARIABLES | {"name": text, "peak": long}
+    numbers = VARIABLES | {"peak": long}
     for n in (1, 2, 2):  # the third from the image of the second
-        changed = {
-            "wear": replace(VARIABLES["wear"], data=VARIABLES["wear"].data * n),
-            "angle": replace(VARIABLES["angle"], data=VARIABLES["angle"].data * n),
-            "peak": replace(long, data=long.data * n),
-            "energy": replace(VARIABLES["energy"], data=n),
-        }
+        changed = {name: replace(each, data=each.data * n) for name, each in numbers.items()}
         attributes = {"casing": f"casing {n}", "status": f"status {n}", "n": n, "E": 2.0 * n}
         repeated = {"angle", "peak", "name", "casing", "n", "unknown"}
-        hdf5.write(tmp_path / "file.h5", variables | changed, attributes, repeated=repeated)
+        hdf5.write(tmp_path / "file.h5", changed | {"name": text}, attributes, repeated=repeated)
         data, told = hdf5.read(tmp_path / "file.h5")
-        for name in variables:
-            np.testing.assert_array_equal(data[name], (variables | changed)[name].data)
+        for name, each in changed.items():
+            np.testing.assert_array_equal(data[name], each.data)
+        assert data["name"].tolist() == ["tip", "Bürste"]
         assert told == hdf5.read_attributes(tmp_path / "file.h5") == attributes
         np.testing.assert_array_equal(data["node"], [0, 1])
 

@@ -12,7 +12,6 @@ GPU, CHART = solver.gpu_digest.__wrapped__, column.chart_digest.__wrapped__
 EDITS = [  # the file, the digest that it belongs to, one that it does not
     ("contact/run.py", SOLVER, STORAGE),
     ("contact/kernel/run.py", SOLVER, STORAGE),
-    ("blade/model.py", SOLVER, STORAGE),
     ("blade/model.py", SOLVER, GPU),
     ("extras/gpu/loop.cu", GPU, SOLVER),
     ("extras/gpu/new.py", GPU, SOLVER),
@@ -20,7 +19,6 @@ EDITS = [  # the file, the digest that it belongs to, one that it does not
     ("study/spectra.py", STORAGE, SOLVER),
     ("study/spectra.py", CHART, SOLVER),
     ("study/growth.py", GROWTH, STORAGE),
-    ("study/growth.py", GROWTH, SOLVER),
     ("study/growth.py", CHART, SOLVER),
     ("study/peaks.py", CHART, SOLVER),
     ("study/wear.py", CHART, SOLVER),
@@ -77,6 +75,7 @@ def left_out(entry, *digests):
 
 CONFIG = {"study/grid.py", "study/casings.py"}
 """What makes values of the config, which are in the key."""
+OF_CHART = {"study/orders.py", "study/paper.py", "study/manifest.py"}  # manifest: the name of a longer run
 
 
 @pytest.mark.parametrize(
@@ -85,12 +84,7 @@ CONFIG = {"study/grid.py", "study/casings.py"}
         ("contact.run", (SOLVER,), set()),
         ("study.store", (SOLVER, STORAGE), CONFIG),
         ("study.growth", (SOLVER, GROWTH), set()),
-        # manifest: the name of a longer run
-        (
-            "extras.chart.search",
-            (SOLVER, CHART),
-            CONFIG | {"study/orders.py", "study/paper.py", "study/manifest.py"},
-        ),
+        ("extras.chart.search", (SOLVER, CHART), CONFIG | OF_CHART),
     ],
 )
 def test_what_digests_of_results_leave_out_determines_no_number(monkeypatch, entry, digests, expected):

@@ -29,14 +29,12 @@ def test_the_table_is_plain_csv(table, tmp_path):
 def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
     tables.write(tmp_path / "peaks.csv", table, ORIGIN)
     about = json.loads((tmp_path / "peaks.csv-metadata.json").read_text(encoding="utf-8"))
-    assert about["@context"][0] == "http://www.w3.org/ns/csvw"
     assert about["url"] == "peaks.csv"
     output = {entry["schema:name"]: entry["schema:value"] for entry in about["dc:provenance"]}
     assert output == ORIGIN
     casing, amplitude = about["tableSchema"]["columns"]
     assert (casing["name"], casing["datatype"], "schema:unitText" in casing) == ("casing", "string", False)
-    assert (amplitude["titles"], amplitude["datatype"]) == ("amplitude", "number")
-    assert amplitude["schema:unitText"] == "m"
+    assert (amplitude["datatype"], amplitude["schema:unitText"]) == ("number", "m")
 
 
 def test_a_copy_brings_its_description_and_the_origin_is_that_of_the_file_now(table, tmp_path):
@@ -63,15 +61,12 @@ def test_a_column_that_nobody_described_is_refused_before_anything_is_written(ta
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        (b"E,amp", "not a whole table, it breaks off"),
-        (b"K,amplitude\n1,2\n", "not the right table, E missing"),
-    ],
-)
-def test_what_is_not_the_whole_table_is_named(tmp_path, content, words):
+def test_what_is_not_the_whole_table_is_named(tmp_path):
     path = tmp_path / "table.csv"
-    path.write_bytes(content)
-    with pytest.raises(DamagedFile, match=rf"table\.csv: {words}"):
-        tables.read(path, ["E", "amplitude"])
+    for content, words in (
+        ("E,amp", "not a whole table"),
+        ("K,amplitude\n1,2\n", "not the right table, E"),
+    ):
+        path.write_text(content)
+        with pytest.raises(DamagedFile, match=rf"table\.csv: {words}"):
+            tables.read(path, ["E", "amplitude"])

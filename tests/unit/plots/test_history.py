@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 
 from bladerub.io import hdf5
 from bladerub.io.hdf5 import Variable
@@ -12,8 +11,7 @@ GROWING[150:] = np.nan
 AMPLITUDE = [1.6e-4, 2.7e-4, 4.4e-4, np.nan]
 
 
-@pytest.fixture
-def drawn(tmp_path, draws):
+def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(tmp_path, draws):
     paths = []
     for theta, displacement, amplitude in ((0.0, STEADY, [1e-4] * 4), (0.15, GROWING, AMPLITUDE)):
         paths.append(tmp_path / f"{theta}.h5")
@@ -28,11 +26,7 @@ def drawn(tmp_path, draws):
         about = {"casing": "2nd", "E": 2.0, "K": 0.5, "theta": theta, "f_omega": 0.19, "run_key": "key"}
         hdf5.write(paths[-1], variables, about)
     table, figure = history(paths)
-    return table, draws(figure).axes
-
-
-def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(drawn):
-    table, axes = drawn
+    axes = draws(figure).axes
     for panel, displacement in zip(axes, (STEADY, GROWING), strict=False):
         np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * displacement)
     assert axes[0].get_ylim() == axes[1].get_ylim()

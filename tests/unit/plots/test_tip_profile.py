@@ -30,7 +30,6 @@ def test_elements_reach_from_the_surface_to_the_casing_at_their_angle_and_are_wo
     np.testing.assert_allclose(lean[:, 0] / lean[:, 1], np.tan(0.15))
     at_surface = (corners[:, 0, 0] + corners[:, 1, 0]) / 2 - np.tan(0.15) * corners[:, 0, 1]
     np.testing.assert_allclose(at_surface, 2.0 * SCENE.element, atol=1e-9)
-    assert shape.get_aspect() == 1
     element, elastic, worn = (
         np.array([(bar.get_x() + bar.get_width() / 2, bar.get_y(), bar.get_height()) for bar in bars]).T
         for bars in heights.containers

@@ -9,14 +9,7 @@ from bladerub.workflow.progress import JobProgress
 
 
 @pytest.mark.parametrize(
-    ("cost", "cores", "threads"),
-    [
-        (1, 16, 1),
-        (1, 64, 5),
-        (10, 4, 3),
-        (100, 4, 4),  # the only job
-        (10, None, 1),
-    ],
+    ("cost", "cores", "threads"), [(1, 16, 1), (1, 64, 5), (10, 4, 3), (100, 4, 4), (10, None, 1)]
 )
 def test_a_job_larger_than_the_share_of_a_core_has_more_threads(cost, cores, threads):
     assert threads_for(cost, 100, cores) == threads
@@ -34,25 +27,19 @@ class Terminal(io.StringIO):
         return True
 
 
-def done(number, total, file="0.1000.h5"):
-    return RunDone(number, total, file, "completed", 0.1, 0.2)
+def done(number, total):
+    return RunDone(number, total, "0.1000.h5", "completed", 0.1, 0.2)
 
 
-def test_each_run_is_a_line_of_the_log_with_the_time_left(tmp_path):
-    log = io.StringIO()
-    progress = JobProgress("2nd_E2_K0.5_theta0", log, io.StringIO(), tmp_path / "turn")
-    progress(done(1, 2))
-    progress(done(2, 2))
-    assert log.getvalue().splitlines() == [str(done(1, 2)), str(done(2, 2))]
-    assert "s left" in log.getvalue()
-
-
-def test_the_bar_is_on_a_terminal_only(tmp_path):
+def test_each_run_is_a_line_of_the_log_and_the_bar_is_on_a_terminal_only(tmp_path):
     terminal, file = Terminal(), io.StringIO()
     for stream in (terminal, file):
-        progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), stream, tmp_path / "turn")
-        progress(done(1, 1))
+        log = io.StringIO()
+        progress = JobProgress("2nd_E2_K0.5_theta0", log, stream, tmp_path / "turn")
+        progress(done(1, 2))
+        progress(done(2, 2))
         progress.summary([])
+        assert log.getvalue().splitlines()[:2] == [str(done(1, 2)), str(done(2, 2))]
     assert "2nd_E2_K0.5_theta0" in terminal.getvalue()
-    assert "/1 |" in terminal.getvalue()
+    assert "/2 |" in terminal.getvalue()
     assert file.getvalue() == ""

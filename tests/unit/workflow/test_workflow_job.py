@@ -38,11 +38,9 @@ def test_an_error_is_one_line_for_the_caller_and_the_traceback_of_another_is_in_
     assert done.returncode == 1
     assert done.stderr.startswith(said)
     assert done.stderr.count("\n") == 1
-    if statement == "1 / 0":
-        assert log.read_text().startswith("at work\nTraceback")
-        assert log.read_text().endswith("ZeroDivisionError: division by zero\n")
-    else:
-        assert log.read_text() == f"at work\n{done.stderr}"
+    text = log.read_text()
+    assert text.startswith("at work\nTraceback" if statement == "1 / 0" else f"at work\n{done.stderr}")
+    assert text.endswith("ZeroDivisionError: division by zero\n") == (statement == "1 / 0")
 
 
 SCRIPTS = sorted([*Path("src/scripts").glob("*.py"), *Path("studies").glob("*/scripts/*.py")])
@@ -70,8 +68,7 @@ def job(tmp_path):
 def test_tables_and_figure_go_to_their_outputs(job):
     outputs.save(job, style.new_figure(2, 1), table=TABLE, data=TABLE)
     assert imread(job.output["png"]).shape[:2] == (70, 140)
-    with open(job.output["pdf"], "rb") as stream:
-        assert stream.read(4) == b"%PDF"
+    assert Path(job.output["pdf"]).read_bytes().startswith(b"%PDF")
     pd.testing.assert_frame_equal(tables.read(job.output["table"]), TABLE, check_exact=True)
     assert tables.read(job.output["data"])["f_omega"].tolist() == [0.123457]
 
