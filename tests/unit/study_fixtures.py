@@ -1,9 +1,9 @@
 import copy
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from bladerub.blade.model import ReducedBlade
 from bladerub.config.read import load
 from bladerub.contact.result import Energy, RunResult
 from bladerub.io.folders import ROOT
@@ -15,14 +15,11 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.plan import coating_plan
 
 N_ELEMENTS = 2000
-
-
 CONFIG = load(ROOT / "config" / "config.yaml")
 
 
 @pytest.fixture
 def config():
-    """The study of the repository, to be changed at will."""
     return copy.deepcopy(CONFIG)
 
 
@@ -42,25 +39,10 @@ def angle():
 
 
 @pytest.fixture
-def blade():
+def blade(blade):
     """24 uncoupled masses at the tip; C1² = 1 + 3 f_omega² at f1 = 192 Hz, the highest at 940 Hz."""
-    stiffness = np.diag((2 * np.pi * 192.0) ** 2 * np.arange(1.0, 25.0))
-    phi = np.linspace(-0.05, 0.05, 8)
-    axial, zero = np.linspace(-0.03, 0.03, 8), np.zeros(8)
-    return ReducedBlade(
-        mass=np.eye(24),
-        stiffness_0=stiffness,
-        stiffness_1=3 * stiffness,
-        stiffness_2=0 * stiffness,
-        node_position=np.stack([axial, 0.65 * np.sin(phi), 0.65 * np.cos(phi)], axis=1),
-        radial_direction=np.stack([zero, np.sin(phi), np.cos(phi)], axis=1),
-        tangential_direction=np.stack([zero, np.cos(phi), -np.sin(phi)], axis=1),
-        f1_hz=192.0,
-        f_omega_max=0.4,
-        eta=6,
-        rank_tolerance=1e-5,
-        length=0.2,
-    )
+    k = np.diag((2 * np.pi * 192.0) ** 2 * np.arange(1.0, 25.0))
+    return replace(blade, mass=np.eye(24), stiffness_0=k, stiffness_1=3 * k, stiffness_2=0 * k)
 
 
 @pytest.fixture
@@ -94,7 +76,7 @@ def make_result(angle):
             n_unconverged_steps=0,
             n_contact_steps=300,
             n_modes=24,
-            energy=Energy(*(float(i) for i in range(1, 14))),
+            energy=Energy(*np.arange(1.0, 14.0)),
         )
 
     return make
@@ -146,7 +128,6 @@ def growing():
 
 @pytest.fixture
 def repeated():
-    """Lists the speeds at which the solver was asked for a longer run."""
     return []
 
 

@@ -4,7 +4,14 @@ import ast
 import re
 from pathlib import Path
 
+import pandas as pd
+import pytest
+
 from bladerub.config.read import load
+from bladerub.io import tables
+from docs import snapshots
+from docs.research_notes import NOTES as SITE
+from docs.research_notes import follow
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -22,6 +29,13 @@ PATH = re.compile(r"(?<![\w/.])(?:src|tests|config|profiles)/[\w./-]*\w")
 NAME = re.compile(r"(?<![\w/.])bladerub(?:\.\w+)+")
 NOT_IN_GIT = {"src/bladerub/numerics/__pycache__"}
 TERM = re.compile(r"^\* .*\. (?P<code>`.+)$", re.M)
+PAGE = (ROOT / "docs" / "reference" / "equations.md").read_text(encoding="utf-8")
+ROW = re.compile(
+    r"^\| `(?P<tag>.+?)` \|.*\| `(?P<module>bladerub[\w.]*)(?::(?P<name>[\w.]+))?`[^|]*\|$", re.M
+)
+ROWS = [row.groupdict() | {"tag": row["tag"].replace(r"\|", "|")} for row in ROW.finditer(PAGE)]
+HOW_TO, STUDY = DOCS / "how-to", DOCS.parent / "studies" / "chart"
+ORIGIN = {"version": "1"}
 
 
 def has_heading(page, heading):
@@ -100,3 +114,89 @@ def test_the_glossary_names_keys_of_the_config_that_exist():
 
 def test_the_readme_is_short():
     assert len((ROOT / "README.md").read_bytes()) <= 9216
+
+
+def source_of(module, name):
+    """Return the source of a function or class, or the docstring of its module."""
+    text = (ROOT / "src").joinpath(*module.split(".")).with_suffix(".py").read_text(encoding="utf-8")
+    node = ast.parse(text)
+    if name is None:
+        return ast.get_docstring(node)
+    for part in name.split("."):
+        node = next(child for child in node.body if getattr(child, "name", None) == part)
+    return ast.get_source_segment(text, node)
+
+
+def test_the_index_names_every_equation_and_figure_of_the_model():
+    tags = {row["tag"] for row in ROWS}
+    assert {f"eq. ({number})" for number in range(1, 10)} <= tags
+    assert {"Fig. 3", "Fig. 4", "Coulomb's law"} <= tags
+    assert any("sin θ" in tag for tag in tags)
+    assert len(ROWS) == PAGE.count("| `bladerub")
+
+
+def test_every_function_of_the_index_bears_its_tag():
+    for row in ROWS:
+        source = source_of(row["module"], row["name"])
+        # and not as the beginning of another
+        assert re.search(re.escape(row["tag"]) + r"(?!\d)", source), row
+
+
+@pytest.mark.parametrize(
+    ("page", "site", "text", "followed"),
+    [
+        (HOW_TO, HOW_TO, "[a](../config.md#units)", "[a](../config.md#units)"),
+        (HOW_TO, HOW_TO, "[a](../../studies/chart/README.md#accuracy)", "[a](../notes/chart.md#accuracy)"),
+        (HOW_TO, HOW_TO, "[a](../../studies/of_nobody/README.md#accuracy) b", "a b"),
+        (HOW_TO, HOW_TO, "[a](../gallery/07_own_law.py)", "[a](../auto_gallery/07_own_law.rst)"),
+        (
+            STUDY,
+            SITE,
+            "[a](../variations/README.md#robustness)",
+            "[a](variations.md#robustness)",
+        ),
+        (
+            STUDY,
+            SITE,
+            "![a](images/chart_Y4.png)",
+            "![a](../../studies/chart/images/chart_Y4.png)",
+        ),
+    ],
+)
+def test_a_link_leads_to_the_page_of_the_site(page, site, text, followed):
+    assert follow(text, page, site) == followed
+
+
+def taken(tmp_path, name, table):
+    source, target = tmp_path / f"{name}.csv", tmp_path / "taken" / f"{name}.csv"
+    target.parent.mkdir(exist_ok=True)
+    tables.write(source, table, ORIGIN)
+    snapshots.take(source, target)
+    assert tables.read_origin(target) == ORIGIN
+    return tables.read(target)
+
+
+def test_runs_with_equal_outcome_are_counted_and_quoted_columns_kept_to_four_digits(tmp_path):
+    columns = [*snapshots.COUNTED["long_runs"], "f_omega"]
+    rows = [("theta", "f4", 500, "free", f_omega) for f_omega in (0.1, 0.2)]
+    rows += [("theta", "f4", 500, "steady", 0.3)]
+    counts = taken(tmp_path, "long_runs", pd.DataFrame(rows, columns=columns))
+    assert list(counts.columns) == [*snapshots.COUNTED["long_runs"], "runs"]
+    assert dict(zip(counts.verdict, counts.runs, strict=True)) == {"free": 2, "steady": 1}
+    columns = [*snapshots.KEPT["calibration"], "claim"]
+    table = pd.DataFrame([("start", "C1a", 0.123456, "yes", "modes agree")], columns=columns)
+    kept = {"set": "start", "id": "C1a", "measured": 0.1235, "holds": "yes"}
+    assert taken(tmp_path, "calibration", table).to_dict("records") == [kept]
+
+
+def test_an_equal_snapshot_keeps_its_description(tmp_path):
+    folder, made = tmp_path / "data", tmp_path / "results" / "tables"
+    folder.mkdir()
+    made.mkdir(parents=True)
+    for name, value in (("findings", "no"), ("margins", "yes")):
+        tables.write(folder / f"{name}.csv", pd.DataFrame({"holds": ["yes"]}), ORIGIN)
+        tables.write(made / f"{name}.csv", pd.DataFrame({"holds": [value]}), {"version": "2"})
+    snapshots.update(folder, tmp_path / "results")
+    assert tables.read(folder / "findings.csv")["holds"].tolist() == ["no"]
+    assert tables.read_origin(folder / "findings.csv") == {"version": "2"}
+    assert tables.read_origin(folder / "margins.csv") == ORIGIN

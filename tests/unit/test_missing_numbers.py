@@ -51,11 +51,9 @@ def unbounded(coating, where):
 
 
 def untouched(coating):
-    """Let the blade stay at rest."""
     names = ("wear", "wear_node", "spectrum_amplitude", "revolution_amplitude", "revolution_peak")
-    return replace(
-        coating, **{name: np.zeros_like(getattr(coating, name)) for name in (*names, "max_wear", "lobes")}
-    )
+    still = {name: np.zeros_like(getattr(coating, name)) for name in (*names, "max_wear", "lobes")}
+    return replace(coating, **still)
 
 
 HOSTILE = {
@@ -82,9 +80,8 @@ def study(config):
 @pytest.fixture
 def sound(study, make_map):
     cases, f_omega = coating_cases(study), speeds(study)
-    return [
-        make_map(case, {4: (0.3, 1e-4 + n * 1e-6), 6: (0.2, 1e-4)}, f_omega) for n, case in enumerate(cases)
-    ]
+    peaks = ({4: (0.3, 1e-4 + n * 1e-6), 6: (0.2, 1e-4)} for n in range(len(cases)))
+    return [make_map(case, each, f_omega) for case, each in zip(cases, peaks, strict=True)]
 
 
 @pytest.fixture

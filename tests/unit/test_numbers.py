@@ -63,14 +63,10 @@ def site(tmp_path):
     shutil.copytree(FOLDER, docs / "numbers", ignore=ignored)
     shutil.copytree(ROOT / "docs" / "data", docs / "data", ignore=ignored)
     shutil.copy(ROOT / "docs" / "page_numbers.py", docs)
-    (docs / "model.md").write_text(
-        "# Model\n\n{{ runs_soft }} runs, {{ worse_than_rigid }} times\n", encoding="utf-8"
-    )
+    (docs / "model.md").write_text("# Model\n\n{{ runs_soft }} runs, {{ worse_than_rigid }} times\n")
     (docs / "conf.py").write_text(
-        f"import sys\nsys.path[:0] = [{str(docs)!r}, {str(tmp_path)!r}]\n"
-        "extensions = ['myst_parser', 'page_numbers']\n"
-        "myst_enable_extensions = ['substitution']\nroot_doc = 'model'\n",
-        encoding="utf-8",
+        f"import sys\nsys.path[:0] = [{str(docs)!r}, {str(tmp_path)!r}]\nroot_doc = 'model'\n"
+        "extensions = ['myst_parser', 'page_numbers']\nmyst_enable_extensions = ['substitution']\n"
     )
     return docs
 

@@ -13,11 +13,9 @@ NAMES = [name for name in dir(br) if name != "__version__"]
 
 
 def members(cls):
+    public = ((name, value) for name, value in vars(cls).items() if not name.startswith("_"))
     return [
-        (name, value)
-        for name, value in vars(cls).items()
-        if not name.startswith("_")
-        and (inspect.isfunction(value) or isinstance(value, (property, classmethod)))
+        each for each in public if inspect.isfunction(each[1]) or isinstance(each[1], (property, classmethod))
     ]
 
 

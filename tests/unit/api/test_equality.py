@@ -35,29 +35,13 @@ def ensemble(blade, planned, followed):
     return br.simulate_ensemble(blade, planned, 2, own=followed, jobs=2, progress=False)
 
 
-def rig():
-    law = br.Law("viscoplastic", viscosity=1e4).element_law
-    sizes = {"thickness": 3e-3, "tip_width": 1e-2, "tip_length": 2e-3, "track": 1.0}
-    return br.Rig("mine", E=6e8, K=3e8, yield_stress=0, speed=125.0, incursion=1e-5, law=law, **sizes)
-
-
-def row():
-    return br.Row.even(
-        3, length=[0, 5e-5, 0], frequency=[[0.01, -0.02], [0, 0], [0, 0]], disk=br.Disk.ring(3, [1e-3])
-    )
-
-
-def row_run(study, blade):
-    planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3)
-    return br.simulate(blade, planned, row=br.Row.even(3, length=[0.0, 5e-5, -4e-3]))
-
-
 def test_a_run_is_written_whole(study, run, followed, unbounded, blade, tmp_path):
     settings = study.config["analysis"]["divergence"]
     assert followed.longer
     assert followed.stress
     assert np.isnan(unbounded.spectrum).all()
-    for number, each in enumerate((run, followed, unbounded, row_run(study, blade))):
+    row = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), row=br.Row.even(2, length=[0, 5e-5]))
+    for number, each in enumerate((run, followed, unbounded, row)):
         path = tmp_path / f"{number}.h5"
         each.write(path, study.config)
         read = br.read_run(path)
@@ -104,14 +88,17 @@ def test_maps_and_ensembles_are_written_whole(study, blade, sweep, planned, ense
 
 
 def test_every_public_object_survives_a_pickle(study, blade, run, sweep, planned, ensemble):
-    objects = [study, study.coatings[0], planned, blade, run, sweep, ensemble, rig(), row(), row().blades[0]]
-    objects += [row().disk, br.Law("viscoplastic", viscosity=1e4)]
+    law = br.Law("viscoplastic", viscosity=1e4)
+    sizes = {"thickness": 3e-3, "tip_width": 1e-2, "tip_length": 2e-3, "track": 1.0, "law": law.element_law}
+    rig = br.Rig("mine", E=6e8, K=3e8, yield_stress=0, speed=125.0, incursion=1e-5, **sizes)
+    row = br.Row.even(3, frequency=[[0.01, -0.02], [0, 0], [0, 0]], disk=br.Disk.ring(3, [1e-3]))
+    objects = [study, study.coatings[0], planned, blade, run, sweep, ensemble, rig, row, row.blades[0]]
+    objects += [row.disk, law]
     for each in objects:
         again = pickle.loads(pickle.dumps(each))
         assert again == each, type(each)
-    law = objects[-1]
     assert br.Law(**json.loads(json.dumps(law.entry))) == law
-    assert br.Row.from_json(row().to_json()) == row()
+    assert br.Row.from_json(row.to_json()) == row
     errors = [br.InputError("K", -1.0, "must be above 0"), br.ConfigError([])]
     for error in errors:
         again = pickle.loads(pickle.dumps(error))

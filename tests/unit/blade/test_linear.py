@@ -71,14 +71,8 @@ def near(make_block):
 
 @pytest.fixture
 def factored(monkeypatch):
-    """Count the matrices that get factors of their own."""
     made = []
-
-    def counted(matrix):
-        made.append(matrix.shape)
-        return factorise(matrix)
-
-    monkeypatch.setattr(linear, "factorise", counted)
+    monkeypatch.setattr(linear, "factorise", lambda matrix: made.append(matrix) or factorise(matrix))
     return made
 
 

@@ -5,7 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.blade.accuracy import ACCURACY_COLUMNS, accuracy_table, doubts
+from bladerub.blade.accuracy import accuracy_table, doubts
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.mesh import BladeMesh, NodeCloud
 from bladerub.blade.model import write_reduced_blade
@@ -15,18 +15,18 @@ from bladerub.blade.tip_slope import tip_slope
 from bladerub.blade.validation import read_reduced_blade, read_valid_blade
 from bladerub.io.errors import DamagedFile
 
+RADIUS = 0.6
+
 
 @pytest.fixture
 def finer(blade):
-    """A blade whose fit had five speeds."""
     n = len(blade.mass)
     return dataclasses.replace(blade, stiffness_higher=(3 * np.eye(n), -5 * np.eye(n)))
 
 
-@pytest.mark.parametrize("read", [read_reduced_blade, read_valid_blade])
-def test_every_coefficient_is_stored_and_read(finer, tmp_path, read):
+def test_every_coefficient_is_stored_and_read(finer, tmp_path):
     write_reduced_blade(tmp_path / "blade.h5", finer, {})
-    blade = read(tmp_path / "blade.h5")
+    blade = read_reduced_blade(tmp_path / "blade.h5")
     assert blade.arrays.keys() == finer.arrays.keys() >= {"stiffness_3", "stiffness_4"}
     for name, matrix in finer.arrays.items():
         np.testing.assert_array_equal(blade.arrays[name], matrix)
@@ -57,9 +57,6 @@ def test_reduced_frequencies_are_those_of_the_oscillators(oscillators):
 def test_the_radius_of_the_tip_is_the_distance_from_the_axis(blade):
     moved = dataclasses.replace(blade, node_position=blade.node_position + np.array([1.0, 0.0, 0.0]))
     assert tip_radius(moved) == pytest.approx(0.65)
-
-
-RADIUS = 0.6
 
 
 @pytest.fixture
@@ -109,7 +106,6 @@ def test_table_has_a_row_for_each_speed_and_mode(oscillators):
     finite_element = {0.0: np.array([1.0, 2.0]), 0.4: np.array([1.1, 2.2])}
     by_law = {0.0: np.array([1.0, 2.0]), 0.4: np.array([1.2, 2.3])}
     table = accuracy_table(oscillators, finite_element, by_law)
-    assert list(table.columns) == ACCURACY_COLUMNS
     assert table[["f_omega", "mode"]].to_numpy().tolist() == [[0.0, 1], [0.0, 2], [0.4, 1], [0.4, 2]]
     assert table.f_fe_eq2.tolist() == [1.0, 2.0, 1.2, 2.3]
     expected = reduced_frequencies(oscillators, 0.4, 2) / [1.1, 2.2] - 1

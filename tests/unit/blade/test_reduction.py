@@ -1,9 +1,12 @@
 import numpy as np
 import pytest
+from blade_parts import TITANIUM
 from scipy import sparse
 from scipy.linalg import eigh
 
+from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import factorise, lowest_modes
+from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.reduction import Partition, internal_solve, mass_orthonormal, project, transformation
 from bladerub.blade.rotation import equilibrium
 
@@ -13,11 +16,6 @@ ETA = 4
 @pytest.fixture(scope="module")
 def blocks():
     """Stiffness at three speeds, mass, partition and Φ of a leaning bar with two interface nodes."""
-    from blade_parts import TITANIUM
-
-    from bladerub.blade.elasticity import Material, Solid
-    from bladerub.blade.mesh import hexahedral_mesh
-
     size, origin = np.array([0.04, 0.006, 0.2]), np.array([-0.02, 0.002, 0.4])
     corners = [np.linspace(0, 1, n + 1) for n in (3, 1, 6)]
     mesh, cube = hexahedral_mesh(*corners, lambda *c: np.stack(c) * size[:, None] + origin[:, None])

@@ -17,12 +17,10 @@ def leaning_bar(make_block):
 def test_stiffness_is_the_derivative_of_the_residual(leaning_bar):
     rng = np.random.default_rng(5)
     u = 1e-3 * rng.standard_normal(leaning_bar.free.size)
-    direction = rng.standard_normal(u.size)
-    omega_squared = 1e7
-    step = 1e-7
-    ahead, behind = (residual(leaning_bar, u + sign * step * direction, omega_squared) for sign in (1, -1))
-    exact = rotating_stiffness(leaning_bar, u, omega_squared) @ direction
-    np.testing.assert_allclose((ahead - behind) / (2 * step), exact, atol=1e-7 * np.abs(exact).max())
+    step = 1e-7 * rng.standard_normal(u.size)
+    ahead, behind = (residual(leaning_bar, u + sign * step, 1e7) for sign in (1, -1))
+    exact = rotating_stiffness(leaning_bar, u, 1e7) @ step
+    np.testing.assert_allclose((ahead - behind) / 2, exact, atol=1e-7 * np.abs(exact).max())
 
 
 def test_bar_stretches_as_the_closed_form(make_block):
@@ -42,8 +40,7 @@ def test_bar_stretches_as_the_closed_form(make_block):
 
 def test_equilibrium_is_one_and_the_same_from_any_start(leaning_bar):
     at_once = equilibrium(leaning_bar, 900.0)
-    halfway = equilibrium(leaning_bar, 600.0)
-    onwards = equilibrium(leaning_bar, 900.0, halfway)
+    onwards = equilibrium(leaning_bar, 900.0, equilibrium(leaning_bar, 600.0))
     size = np.abs(at_once.displacement).max()
     np.testing.assert_allclose(onwards.displacement, at_once.displacement, atol=1e-9 * size)
     for omega in (20.0, 100.0, 400.0, 900.0):

@@ -38,14 +38,12 @@ def command(capsys):
 
 @pytest.fixture
 def at_home(folder, monkeypatch, command):
-    """Give a command in the folder."""
     monkeypatch.setattr(inputs, "study_folder", lambda: folder)
     return command
 
 
 @pytest.fixture
 def on_six_runs(folder, at_home):
-    """Give a command on a study of six short runs of a coarse blade."""
     (folder / "six.yaml").write_text(COARSE + SHORT)
     return lambda name, *words: at_home(name, "--config", folder / "six.yaml", *words)
 

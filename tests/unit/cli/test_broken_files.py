@@ -51,7 +51,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory):
-    """One sound blade of each kind."""
     folder = tmp_path_factory.mktemp("sound")
     blade = load(CONFIG)["blade"] | {"mesh": COUNTS}
     shape = BladeShape.from_config(blade)

@@ -4,7 +4,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 
 from bladerub.cli import main
 from bladerub.config import read
@@ -15,18 +14,14 @@ from bladerub.io.folders import BENCHMARKS, base_config
 PAPER = Path(law.__file__).read_text(encoding="utf-8")
 
 
-FORCE = "return maximum(trial - element.elastic * increment, 0.0), increment"
-
-
 def test_a_law_is_said_to_be_right_or_told_what_is_wrong(tmp_path, monkeypatch, capsys):
-    """That of the paper, and the same with a wear of the wrong sign."""
     monkeypatch.setattr(element_law, "TIME_STEPS", (1e-6,))
     monkeypatch.setattr(element_law, "compile_kernel", lambda law: None)
     path = tmp_path / "mine.py"
     path.write_text(PAPER, encoding="utf-8")
     assert main(["check-law", str(path)]) == 0
     assert capsys.readouterr().out == "mine: 120 histories, no problem; it compiles with the time loop\n"
-    path.write_text(PAPER.replace(FORCE, FORCE.replace(", increment", ", -increment")), encoding="utf-8")
+    path.write_text(PAPER.replace("0.0), increment", "0.0), -increment"), encoding="utf-8")
     assert main(["check-law", str(path)]) == 1
     assert "- wear is negative (depth " in capsys.readouterr().out
 
@@ -45,8 +40,7 @@ def own(tmp_path):
 
 
 def test_numbers_that_are_off_are_named_and_the_exit_code_is_1(own, capsys):
-    assert main(["compare", own(), "rotor37"]) == 0
-    assert main(["compare", own("f1_rest"), str(BENCHMARKS / "rotor37")]) == 1
+    assert main(["compare", own(), str(BENCHMARKS / "rotor37")]) == 0
     capsys.readouterr()
     assert main(["compare", own("f1_rest"), "rotor37", "--json"]) == 1
     figures = json.loads(capsys.readouterr().out)
@@ -81,9 +75,6 @@ def test_the_lines_are_accepted_by_the_config(table, tmp_path, capsys):
     assert coating["E"][0] * contact["modulus_unit"] == pytest.approx(900e6, rel=0.02)
     assert coating["K"][0] * contact["modulus_unit"] == pytest.approx(60e6, rel=0.05)
     assert contact["yield_stress"] * contact["modulus_unit"] == pytest.approx(9e6, rel=0.02)
-    assert yaml.safe_load(lines)["contact"]["modulus_unit"] == 600e6
-
-
-def test_what_is_not_determined_is_named(table, capsys):
+    assert contact["modulus_unit"] == 600e6
     assert main(["fit-coating", table(0.008)]) == 0
     assert "not determined by these curves: K, yield_stress" in capsys.readouterr().out

@@ -33,9 +33,7 @@ def test_a_valid_config_is_summed_up_and_its_law_named_but_not_executed(study, c
     assert "12,096 runs" in output
     assert "executes evil.py" in output
     assert main(["config"]) == 0
-    output = capsys.readouterr().out
-    assert "executes no file" in output
-    assert "E = 1 and K = 1: 600 MPa" in output
+    assert "executes no file" in capsys.readouterr().out
 
 
 def test_what_is_no_config_is_one_line_with_file_and_line_and_executes_nothing(study, capsys):
@@ -68,9 +66,7 @@ def test_a_law_is_taken_from_the_results_if_trusted_of_the_package_or_of_the_stu
     options.trust = False
     _record(study, name="viscoplastic", viscosity=1e4)
     assert inputs.read_config(options)["contact"]["law"]["name"] == "viscoplastic"
-    text = (study / "config" / "config.yaml").read_text()
-    (study / "config" / "config.yaml").write_text(
-        text.replace("contact:\n", "contact:\n  law: {file: evil.py}\n")
-    )
+    config = study / "config" / "config.yaml"
+    config.write_text(config.read_text().replace("contact:\n", "contact:\n  law: {file: evil.py}\n"))
     _record(study, file="evil.py")
     assert inputs.read_config(options)["contact"]["law"] == {"file": "evil.py"}

@@ -10,7 +10,6 @@ from bladerub.io import hdf5
 
 @pytest.fixture
 def export(folder, at_home):
-    """Run the command on `folder`."""
     return lambda *more: at_home("export", "--config", folder / "small.yaml", *more)
 
 
@@ -25,9 +24,7 @@ def test_decks_are_written_for_three_speeds_or_those_named(export, tmp_path):
 
 @pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
 def test_the_mesh_is_that_of_the_blade_with_its_sets(export, folder, tmp_path, name):
-    code, out, _ = export("--mesh", tmp_path / name)
-    assert code == 0
-    assert out.splitlines()[-1] == f"wrote {tmp_path / name}"
+    assert export("--mesh", tmp_path / name)[0] == 0
     content = mesh_file.read(tmp_path / name)
     mesh, _ = hdf5.read(folder / "results" / "blade" / "mesh.h5")
     np.testing.assert_array_equal(content.points, mesh["points"])
@@ -37,10 +34,8 @@ def test_the_mesh_is_that_of_the_blade_with_its_sets(export, folder, tmp_path, n
     if name.endswith("vtu"):
         data = meshio.vtu.read(tmp_path / name).point_data
         modes = [name for name in data if name.startswith("mode_")]
-        assert len(modes) == len(mesh["frequency"])
         assert modes[0] == f"mode_1_{mesh['frequency'][0]:.5g}_Hz"
-        np.testing.assert_array_equal(data[modes[2]], mesh["mode_shape"][2])
-        assert {"centrifugal_0.2000", "centrifugal_0.4000"} <= data.keys()
+        np.testing.assert_array_equal([data[mode] for mode in modes], mesh["mode_shape"])
         np.testing.assert_array_equal(data["centrifugal_0.4000"], mesh["static_displacement"][-1])
 
 
@@ -55,8 +50,6 @@ def test_sections_need_no_blade_and_come_in_two_coordinates(export, folder, tmp_
     code, out, _ = export("--sections", tmp_path / "blade.csv", "--json")
     assert code == 0
     assert json.loads(out)["stations"] == 21 * 61
-    code, out, _ = export("--sections", tmp_path / "blade.txt", "--coordinates", "cylindrical")
-    assert code == 0
-    assert out.splitlines()[-1] == f"wrote {tmp_path / 'blade.txt'}"
+    assert export("--sections", tmp_path / "blade.txt", "--coordinates", "cylindrical")[0] == 0
     headers = [(tmp_path / name).read_text().splitlines()[1] for name in ("blade.csv", "blade.txt")]
     assert headers == ["section,x1,y1,z1,x2,y2,z2", "section,z,r,theta1,theta2"]

@@ -21,12 +21,8 @@ def written(folder):
 
 
 def test_what_is_written_can_be_looked_at(written, command):
-    names = {path.stem for path in (written / "m").iterdir()}
-    assert names == {
-        "nodes",
-        "mass",
-        *(f"stiffness_{n}" for n in ("rest", "at_0.1", "half", "at_0.3", "max")),
-    }
+    names = {path.stem for path in (written / "m").iterdir()} - {"nodes", "mass"}
+    assert names == {f"stiffness_{name}" for name in ("rest", "at_0.1", "half", "at_0.3", "max")}
     code, out, _ = command("import", written / "m", "--json")
     figures = json.loads(out)
     assert code == 0

@@ -1,5 +1,3 @@
-import pytest
-
 from bladerub.cli import main
 from bladerub.config.read import read
 from bladerub.io.folders import ROOT, study_folder
@@ -15,15 +13,11 @@ def test_a_new_study_has_the_config_of_the_paper(tmp_path, monkeypatch, capsys):
     assert study_folder() == folder
 
 
-@pytest.mark.parametrize("file", ["", "something.txt"])
-def test_nothing_is_written_over(tmp_path, capsys, file):
-    folder = tmp_path / "own"
-    if file:
-        folder.mkdir()
-        (folder / file).touch()
-    else:
-        folder.touch()
+def test_nothing_is_written_over(tmp_path, capsys):
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "file").touch()
     before = sorted(tmp_path.rglob("*"))
-    assert main(["new", str(folder)]) == 2
-    assert capsys.readouterr().err.startswith(f"bladerub new: {folder}: ")
+    for path in (tmp_path / "own", tmp_path / "own" / "file"):
+        assert main(["new", str(path)]) == 2
+        assert capsys.readouterr().err.startswith(f"bladerub new: {path}: ")
     assert sorted(tmp_path.rglob("*")) == before

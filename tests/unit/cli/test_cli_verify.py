@@ -40,18 +40,35 @@ def test_runs_beyond_one_percent_are_named(figures, folder):
         assert isinstance(entry["sensitive"], bool)
 
 
-ROWS = """
-seed: 1
-groups:
-  some: {casing: 2nd, E: 2, K: 0.5, theta: 0.15, f_omega: [0.2, 0.3], blades: [2], length_scatter: [5.0e-5],
-         frequency_scatter: [0.01], coupling: [0, 0.01], draws: 4}
-"""
-
-
 def test_rows_of_blades_are_drawn_from_their_plan(figures, folder):
     plan = folder / "rotor.yaml"
-    plan.write_text(ROWS)
+    some = "casing: 2nd, E: 2, K: 0.5, theta: 0.15, f_omega: [0.2, 0.3], blades: [2], length_scatter: [5e-5]"
+    some += ", frequency_scatter: [0.01], coupling: [0, 0.01], draws: 4"
+    plan.write_text(f"seed: 1\ngroups: {{some: {{{some}}}}}\n")
     told = figures("--rows", str(plan), "--sample", "3", "--seed", "1")
     assert told["n"] == 3
     assert told["energy_residual"]["max"] < 1e-3
     assert told["worst"]["wear_l2"].startswith("2nd_E2_K0.5_theta0.15_f0.")
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+def test_json_holds_every_figure(on_six_runs):
+    code, out, _ = on_six_runs("benchmark", "--json", "--rounds", "1", "--cores", "2")
+    assert code == 0
+    told = json.loads(out)
+    assert 0.2 < told["contact_share"] < 0.5
+    for loop, rates in told["steps_per_second"].items():
+        assert rates["free"] > rates["contact"] > 0, loop
+    assert told["ratio_to_numpy"] > told["ratio_to_numba"] > 1
+    assert all(0 < told[f"fraction_of_peak_{part}"] < 1 for part in ("contact", "free"))
+    assert (told["runs"], told["cores"]) == (6, 2)
+    assert told["study_minutes"] * 2 * 60 > 6 * told["seconds_per_run"] > 0
+
+
+@pytest.mark.slow
+def test_bad_input_is_answered_in_one_line(on_six_runs):
+    code, _, error = on_six_runs("benchmark", "--nodes", "16", "33")
+    assert code == 2
+    assert "--nodes 33: must be from 4 to 32" in error
+    assert error.count("\n") == 1

@@ -17,7 +17,6 @@ IN_A_LINE = re.compile(r"`(bladerub [a-z-]+ [^`]*--[^`]*)`")
 
 
 def commands():
-    """Each ``bladerub`` command with the name of its page."""
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         for block in BLOCK.findall(text):
@@ -28,7 +27,6 @@ def commands():
 
 
 def parses(command):
-    """Whether the parser accepts a command line."""
     words = shlex.split(command, comments=True)[1:]
     try:
         parser().parse_args(words)

@@ -42,7 +42,6 @@ def test_the_mistakes_of_all_parts_are_named_at_once(tmp_path):
 
 
 def groups(config):
-    """Yield each group and list of a config."""
     yield config
     for value in config.values() if isinstance(config, dict) else config:
         if value and isinstance(value, dict | list):

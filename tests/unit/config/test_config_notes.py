@@ -21,8 +21,6 @@ def on_casing(**casing):
 
 @pytest.fixture
 def laid_over(tmp_path):
-    """Read the study with a file of this content, and the values of a command line, laid over it."""
-
     def read_over(content, **command_line):
         path = tmp_path / "my.yaml"
         path.write_text(yaml.safe_dump(content))

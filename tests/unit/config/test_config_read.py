@@ -53,11 +53,10 @@ def test_each_kind_of_coating_has_keys_of_its_own(config, entry, start):
 
 
 def test_a_plan_that_nobody_can_compute_is_refused_before_it_is_made(config):
+    thousand = [*range(1, 1001)]
     config["analysis"]["histories"] = []
-    thousand = [index + 1 for index in range(1000)]
     config["coatings"] = [{"casing": "2nd", "E": thousand, "K": thousand, "theta": [0.0]}]
-    (problem,) = problems(config)
-    assert problem.startswith("coatings[0]: ")
+    assert [problem[:13] for problem in problems(config)] == ["coatings[0]: "]
 
 
 def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
@@ -67,8 +66,7 @@ def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
     config["blade"]["source"] = {"file": str(tmp_path / "blade.msh"), "root_set": "ROOT"}
     validate(config)
     config["blade"]["source"] = {"file": str(tmp_path / "blade.csv")}
-    (problem,) = problems(config)
-    assert problem.startswith("blade.mesh.chordwise = 4: ")
+    assert [problem.split(":")[0] for problem in problems(config)] == ["blade.mesh.chordwise = 4"]
     config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
     assert [problem.split(":")[0] for problem in problems(config)] == ["blade.mesh"]
     config["blade"]["source"]["root_set"] = "ROOT"

@@ -46,7 +46,6 @@ speeds: {{start: {start}, stop: {stop}, step: {step}, extra: [{extra}]}}
 
 @pytest.fixture
 def study(tmp_path, monkeypatch):
-    """Read configs laid over that of the paper, with a coarse blade."""
     monkeypatch.setenv("BLADERUB_CACHE", str(tmp_path / "cache"))
 
     def read_over(text):

@@ -99,7 +99,6 @@ def test_no_contact_leaves_everything_at_rest(blade, spec, change):
 
 
 def blade_imbalance(energy):
-    """Of the ledger of the blade alone, over the work exchanged."""
     gained = energy.kinetic + energy.elastic - energy.initial + energy.damping
     work = energy.work_radial + energy.work_tangential + energy.work_couple
     return abs(gained - work) / energy.exchanged

@@ -11,6 +11,7 @@ from bladerub.contact.setup import SEARCH_RANGE, minimum_gap
 N = 200
 UNEVEN = np.array([-0.023, -0.021, -0.016, -0.015, -0.002, 0.011, 0.013, 0.024])
 """Axial position of the nodes, m."""
+RECORDS = ("modal", "flight", "stator", "tip", "state")
 
 
 def lowest_met(rows, half_width, element):
@@ -40,17 +41,6 @@ def test_no_node_meets_less_than_the_minimum_gap(half_width):
     assert reached[-1] <= seen[-1] <= reached[-1] + 2
 
 
-def test_clearance_is_linear_along_the_chord_not_by_node(blade, spec, change):
-    spec = change(spec, interference=0.0, amplitude=1e-12)
-    x = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 70.0]) * 1e-3
-    uneven = blade.node_position.copy()
-    uneven[:, 0] = x
-    blade = type(blade)(**{**vars(blade), "node_position": uneven})
-    _, simulation = setup.set_up(blade, spec)
-    expected = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * x / x[-1]
-    np.testing.assert_allclose(simulation.stator.initial_gap[0], expected, atol=1e-11)
-
-
 def test_friction_is_limited_by_what_all_nodes_together_take(blade, spec, change):
     """γ of a node: the most that forces of ±1 N, or none, on all nodes take from its sliding."""
     _, simulation = setup.set_up(blade, change(spec, theta=0.15, law="coulomb"))
@@ -71,6 +61,14 @@ def uneven(blade):
         radial_direction=np.column_stack([zero, np.sin(angle), np.cos(angle)]),
         tangential_direction=np.column_stack([zero, np.cos(angle), -np.sin(angle)]),
     )
+
+
+def test_clearance_is_linear_along_the_chord_not_by_node(uneven, spec, change):
+    spec = change(spec, interference=0.0, amplitude=1e-12)
+    _, simulation = setup.set_up(uneven, spec)
+    along = (UNEVEN - UNEVEN[0]) / np.ptp(UNEVEN)
+    expected = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * along
+    np.testing.assert_allclose(simulation.stator.initial_gap[0], expected, atol=1e-11)
 
 
 def test_the_blade_begins_over_the_element_at_its_angle(uneven, spec):
@@ -95,7 +93,6 @@ def test_the_step_is_the_longest_that_is_allowed(uneven, spec, change, max_time_
 
 
 def at_radius(blade, radius):
-    """The blade with its interface nodes on a circle of `radius`, m."""
     position = blade.node_position.copy()
     position[:, 1:] *= radius / np.hypot(*position[:, 1:].T)[:, None]
     return dataclasses.replace(blade, node_position=position)
@@ -128,21 +125,12 @@ def test_accepted_limits_keep_every_index_within_a_turn(blade, spec, change, see
     assert accepted or n < 2 * (SEARCH_RANGE + max(half_width, 1.0)) + 6
 
 
-@pytest.mark.parametrize(
-    "broken",
-    [
-        lambda blade: at_radius(blade, 1e-6),
-        lambda blade: dataclasses.replace(blade, radial_direction=-blade.radial_direction),
-        lambda blade: dataclasses.replace(blade, node_position=blade.node_position * np.nan),
-    ],
-    ids=["near the axis", "path curved outwards", "no numbers"],
-)
-def test_a_blade_whose_tip_may_leave_the_turn_is_refused(blade, spec, broken):
-    with np.errstate(all="ignore"), pytest.raises(ValueError, match="displacement limit"):
-        setup.tip_record(broken(blade), spec)
-
-
-RECORDS = ("modal", "flight", "stator", "tip", "state")
+def test_a_blade_whose_tip_may_leave_the_turn_is_refused(blade, spec):
+    outwards = dataclasses.replace(blade, radial_direction=-blade.radial_direction)
+    no_numbers = dataclasses.replace(blade, node_position=blade.node_position * np.nan)
+    for broken in (at_radius(blade, 1e-6), outwards, no_numbers):
+        with np.errstate(all="ignore"), pytest.raises(ValueError, match="displacement limit"):
+            setup.tip_record(broken, spec)
 
 
 def broken_parts(part):

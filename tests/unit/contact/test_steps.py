@@ -1,4 +1,3 @@
-import dataclasses
 import math
 from dataclasses import replace
 
@@ -8,12 +7,15 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.contact import setup
 from bladerub.contact.modes import Modes, mode_shapes_at, modes_at
-from bladerub.contact.schemes import Contact
+from bladerub.contact.schemes import FASTEST_PHASE, STEADY, Contact, central_differences, exponential
 from bladerub.contact.steps import BOUNCE, PASSAGE, STABLE_PART, bounce, steps_per_element
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.turning.motion import further
 
 MASS, STIFFNESS = 1e-3, 2e7
+SOFT = Contact(np.full(8, 1e5), -1.0, 0.0)
+RIGID = Contact(np.full(8, np.inf), -np.cos(0.15), -np.sin(0.15))
+XI = 2.3e-3
 
 
 @pytest.fixture
@@ -28,16 +30,11 @@ def contact(stiffness=STIFFNESS):
 
 @pytest.fixture
 def by_tolerance(spec, change):
-    """Make a run whose step follows from a tolerance."""
     return lambda **values: change(spec, **{"steps_per_element": 0, "max_time_step": math.inf, **values})
 
 
-def test_a_free_mass_bounces_with_the_frequency_of_its_spring(mass):
-    step = 1e-6
-    assert bounce(mass, contact(), step) == pytest.approx((step / 2) ** 2 * STIFFNESS / MASS)
-
-
-def test_a_fast_mode_yields_by_its_static_displacement(mass):
+def test_a_free_mass_bounces_with_its_spring_and_a_fast_mode_yields_by_its_static_displacement(mass):
+    assert bounce(mass, contact(), 1e-6) == pytest.approx((1e-6 / 2) ** 2 * STIFFNESS / MASS)
     fast = mass._replace(omega=np.full(2, 1e9))
     assert bounce(fast, contact(), 1e-3) == pytest.approx(STIFFNESS / MASS / 1e18, rel=1e-6)
 
@@ -55,10 +52,8 @@ def test_as_few_steps_as_both_limits_allow(by_tolerance, mass, tolerance, stiffn
 def test_a_law_that_depends_on_the_rate_is_of_first_order(blade, by_tolerance):
     run = by_tolerance(E=0.01, tolerance=1e-2)
     viscous = replace(run.coating, element_law=described_law("viscoplastic", {"viscosity": 1e4}))
-    steps = [
-        setup.fixed_steps(blade, each).steps_per_element for each in (run, replace(run, coating=viscous))
-    ]
-    assert steps == [6, 36]
+    assert setup.fixed_steps(blade, run).steps_per_element == 6
+    assert setup.fixed_steps(blade, replace(run, coating=viscous)).steps_per_element == 36
 
 
 def test_central_differences_are_stable(blade, by_tolerance):
@@ -82,9 +77,9 @@ def test_turn_of_the_whole_blade_about_the_axis_tilts_no_profile(blade, spec):
     """The tip's slope is minus the angle then, and the normal of the casing turns with the nodes."""
     _, y, z = blade.node_position.T
     turn = np.concatenate([np.column_stack([0 * y, z, -y]).ravel(), np.zeros(6)])
-    turning = dataclasses.replace(blade, tip_slope=-np.outer(np.ones(8), turn) / (turn @ turn))
+    turning = replace(blade, tip_slope=-np.outer(np.ones(8), turn) / (turn @ turn))
     np.testing.assert_allclose(further(turning, turn[:, None], spec), 0.0, rtol=0, atol=1e-12)
-    along = dataclasses.replace(blade, tip_slope=np.zeros((8, turn.size)))  # it moves and does not turn
+    along = replace(blade, tip_slope=np.zeros((8, turn.size)))  # it moves and does not turn
     width = 2 * np.pi * 0.65 / spec.coating.n_elements
     np.testing.assert_allclose(further(along, turn[:, None], spec), width)
 
@@ -93,7 +88,87 @@ def test_the_shapes_do_not_depend_on_the_threads_of_who_asks_first(blade):
     found = []
     for threads in (1, 2):
         with threadpool_limits(threads, "blas"):
-            unknown = dataclasses.replace(blade)  # another one, whose modes were not asked for
+            unknown = replace(blade)  # another one, whose modes were not asked for
             found.append(mode_shapes_at(unknown, 0.3))
     for one, other in zip(*found, strict=True):
         np.testing.assert_array_equal(one, other)
+
+
+def test_central_differences_repeat_the_discrete_free_vibration(blade):
+    """Undamped, they move a mode at 2/h asin(ω h/2) exactly."""
+    modes = modes_at(blade, 0.0)
+    h = 2e-6
+    rule = central_differences(modes, 0.0, h, SOFT)
+    phase = 2 * np.arcsin(modes.omega * h / 2)
+    np.testing.assert_allclose(rule.now * np.cos(phase) - rule.before, np.cos(2 * phase), atol=1e-12)
+
+
+@pytest.mark.parametrize("h", [1e-7, 2e-6, 2e-5])
+def test_exponential_free_vibration_is_exact_at_any_step(blade, h):
+    modes = modes_at(blade, 0.2)
+    rule = exponential(modes, XI, h, SOFT)
+    omega = rule.omega
+    assert omega[-1] * h <= FASTEST_PHASE
+    damped = omega * np.sqrt(1 - XI**2)
+
+    def q(t):
+        return np.exp(-XI * omega * t) * np.cos(damped * t + 0.3)
+
+    np.testing.assert_allclose(rule.now * q(5 * h) - rule.before * q(4 * h), q(6 * h), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("h", [1e-7, 1e-6, 2e-5])
+@pytest.mark.parametrize("scheme", [central_differences, exponential])
+def test_a_constant_force_leads_to_its_static_displacement(blade, h, scheme):
+    """Resolved and condensed modes together answer as the whole blade does."""
+    modes = modes_at(blade, 0.3)
+    if scheme is central_differences:
+        h = min(h, 1e-5)
+    rule = scheme(modes, XI, h, SOFT)
+    found = rule.tip * rule.gain / (1 - rule.now + rule.before) @ rule.tip.T + rule.static_compliance
+    static = (modes.tip / modes.omega**2) @ modes.tip.T
+    np.testing.assert_allclose(found, static, rtol=1e-5, atol=1e-15)
+
+
+def test_a_body_without_support_flies_on():
+    """ω = 0: q⁺ = 2 q − q⁻ + h² F."""
+    tip = np.zeros((16, 2))
+    tip[0] = 0.5, 0.7
+    rule = exponential(Modes(np.array([0.0, 100.0]), tip, 8), 0.0, 1e-4, SOFT)
+    assert (rule.now[0], rule.before[0]) == (2.0, 1.0)
+    assert (rule.tip * rule.gain)[0, 0] == pytest.approx(0.5e-8)
+
+
+@pytest.mark.parametrize("h", [5e-6, 2e-5])
+def test_fast_modes_are_condensed_until_contact_is_steady(blade, h):
+    """The blade in lasting contact is a linear recurrence: all its roots stay within the unit circle."""
+    modes = modes_at(blade, 0.3)
+    resolved = []
+    for stiffness in (1e5, 1e8, np.inf):
+        contact = Contact(np.full(8, stiffness), -1.0, 0.0)
+        rule = exponential(modes, 0.0, h, contact)
+        resolved.append(rule.omega.size)
+        flexibility = np.eye(8) / stiffness + rule.compliance[:8, :8]
+        stiff = np.linalg.inv(flexibility)  # of coating and condensed modes in series
+        coupling = (rule.tip * rule.gain)[:8].T @ stiff @ rule.tip[:8]
+        last = [np.eye(rule.omega.size), np.zeros((rule.omega.size,) * 2)]
+        companion = np.block([[np.diag(rule.now) - coupling, -np.diag(rule.before)], last])
+        assert np.abs(np.linalg.eigvals(companion)).max() <= 1 + 1e-9
+    assert resolved[0] >= resolved[1]
+    assert STEADY < 1
+
+
+def test_only_the_rigid_casing_is_met_implicitly_by_central_differences(blade):
+    modes = modes_at(blade, 0.3)
+    assert not central_differences(modes, XI, 2e-6, SOFT).compliance.any()
+    rule = central_differences(modes, XI, 2e-6, RIGID)
+    force = np.arange(16.0)
+    moved = rule.tip @ (force @ (rule.tip * rule.gain))
+    np.testing.assert_allclose(rule.compliance @ force, moved, rtol=1e-12)
+
+
+def test_step_too_long_is_refused(blade):
+    modes = modes_at(blade, 0.3)
+    for scheme, h in ((central_differences, 2e-5), (exponential, 1.0)):
+        with pytest.raises(ValueError, match="time step"):
+            scheme(modes, XI, h, SOFT)

@@ -16,6 +16,13 @@ with atomic.writing(sys.argv[1]) as stream:
     print("half", flush=True)
     sys.stdin.read()
 """
+HOLDER = """
+import sys
+from bladerub.io import lock
+with lock.held(sys.argv[1], lambda: None):
+    print("held", flush=True)
+    sys.stdin.read()
+"""
 
 
 def test_an_error_leaves_the_old_file_and_nothing_else(tmp_path):
@@ -74,15 +81,6 @@ def test_the_content_is_on_the_disk_before_the_file_gets_its_name(tmp_path, monk
     assert steps == [("synchronised", 8), ("renamed", 8)]
     assert path.read_bytes() == b"sev\xc3\xa4n\n\n"
     assert list(path.parent.iterdir()) == [path]
-
-
-HOLDER = """
-import sys
-from bladerub.io import lock
-with lock.held(sys.argv[1], lambda: None):
-    print("held", flush=True)
-    sys.stdin.read()
-"""
 
 
 def test_the_second_to_ask_gets_no_further_before(tmp_path):

@@ -27,6 +27,19 @@ EDITS = [  # the file, the digest that it belongs to, one that it does not
     ("extras/chart/search.py", CHART, SOLVER),
     ("extras/chart/point.py", CHART, SOLVER),
 ]
+CONFIG = {"study/grid.py", "study/casings.py"}
+"""What makes values of the config, which are in the key."""
+OF_CHART = {"study/orders.py", "study/paper.py", "study/manifest.py"}  # manifest: the name of a longer run
+FILES = {
+    "study/__init__.py": "",
+    "study/maps.py": "import numpy\nfrom bladerub.study import grid\nfrom bladerub.io import hdf5\n",
+    "study/grid.py": "def f():\n    from bladerub.study.findings.claim import Claim\n    from . import x\n",
+    "study/findings/claim.py": "from bladerub.study.maps import read_map\nfrom bladerub.contact import run\n",
+    "io/hdf5.py": "from bladerub.io import atomic\n",
+    "io/atomic.py": "",
+    "contact/run.py": "",
+}
+STUDY = ["study/__init__.py", "study/findings/claim.py", "study/grid.py", "study/maps.py"]
 
 
 @pytest.fixture
@@ -73,11 +86,6 @@ def left_out(entry, *digests):
     return {name for name in names if not name.startswith("io/")}  # moves numbers, computes none
 
 
-CONFIG = {"study/grid.py", "study/casings.py"}
-"""What makes values of the config, which are in the key."""
-OF_CHART = {"study/orders.py", "study/paper.py", "study/manifest.py"}  # manifest: the name of a longer run
-
-
 @pytest.mark.parametrize(
     ("entry", "digests", "expected"),
     [
@@ -90,18 +98,6 @@ OF_CHART = {"study/orders.py", "study/paper.py", "study/manifest.py"}  # manifes
 def test_what_digests_of_results_leave_out_determines_no_number(monkeypatch, entry, digests, expected):
     monkeypatch.setattr(sources, "source_digest", set)
     assert left_out(entry, *digests) == expected
-
-
-FILES = {
-    "study/__init__.py": "",
-    "study/maps.py": "import numpy\nfrom bladerub.study import grid\nfrom bladerub.io import hdf5\n",
-    "study/grid.py": "def f():\n    from bladerub.study.findings.claim import Claim\n    from . import x\n",
-    "study/findings/claim.py": "from bladerub.study.maps import read_map\nfrom bladerub.contact import run\n",
-    "io/hdf5.py": "from bladerub.io import atomic\n",
-    "io/atomic.py": "",
-    "contact/run.py": "",
-}
-STUDY = ["study/__init__.py", "study/findings/claim.py", "study/grid.py", "study/maps.py"]
 
 
 def test_imports_are_followed_within_the_subpackages_of_the_modules(tmp_path, monkeypatch):

@@ -21,9 +21,7 @@ def test_the_table_is_plain_csv(table, tmp_path):
     path = tmp_path / "new" / "peaks.csv"
     tables.write(path, table, ORIGIN, "%.3g")
     assert path.read_text() == "casing,amplitude\n2nd,0.333\n2nd,\n"
-    pd.testing.assert_frame_equal(
-        tables.read(path, ["casing"]), table.round({"amplitude": 3}).reset_index(drop=True), check_dtype=False
-    )
+    assert tables.read(path, ["casing"]).fillna(0.0).to_numpy().tolist() == [["2nd", 0.333], ["2nd", 0.0]]
 
 
 def test_the_description_has_units_datatypes_and_origin(table, tmp_path):

@@ -19,6 +19,7 @@ SCENE = PressedElements(
     tip_offset=np.linspace(-1.5, 1.5, 21),
     tip_depth=100e-6 - 20e-6 * np.linspace(-1, 1, 21) ** 2,
 )
+E, K = 2.0, 0.5
 
 
 def test_elements_reach_from_the_surface_to_the_casing_at_their_angle_and_are_worn(draws):
@@ -37,9 +38,6 @@ def test_elements_reach_from_the_surface_to_the_casing_at_their_angle_and_are_wo
     np.testing.assert_allclose(worn[[0, 2]], [2.0 * SCENE.element, 1e6 * SCENE.wear])  # mm, μm
     np.testing.assert_allclose(elastic[2], 1e6 * (SCENE.shortening - SCENE.wear), atol=1e-9)
     np.testing.assert_allclose(element[1], 1e6 * SCENE.shortening)
-
-
-E, K = 2.0, 0.5
 
 
 def cycle(yield_stress: float) -> LoadingCycle:

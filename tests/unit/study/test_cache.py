@@ -15,7 +15,6 @@ from bladerub.study.store import MAPPED, read_run
 
 @pytest.fixture
 def run(write_run):
-    """A run file under the key "a"."""
     return write_run(key="a")
 
 

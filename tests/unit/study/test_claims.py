@@ -6,7 +6,6 @@ from bladerub.study.findings.claim import above, below, claim, in_order
 
 @pytest.fixture
 def registered(monkeypatch):
-    """Claims registered by the test alone."""
     monkeypatch.setattr(register, "REGISTERED", {})
     return register.REGISTERED
 

@@ -14,6 +14,12 @@ from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, TILTED, WORN
 
 RIGID = CoatingCase.rigid("2nd", 0.0)
 CLAIMS = {claim.id: claim for claim in findings.CLAIMS}
+PLACES = [(TILTED, 0.19), (STRAIGHT, 0.197), (STRAIGHT, 0.19), (TILTED, 0.197)]
+PLACES += [*PLACES[:2], (TILTED, 0.18), (STRAIGHT, 0.2), (STRAIGHT, 0.18), (TILTED, 0.2)]
+PLACES += PLACES[6:8]
+RUNS = {f"C11{part}": place for part, place in zip("abcdefghijkl", PLACES, strict=True)}
+"""Coating and speed of each claim; our f6 is 0.18 and 0.2."""
+DIVERGENT = {"divergent": True, "status": "unbounded", "growth_low": -0.5}
 
 
 @pytest.fixture
@@ -261,13 +267,6 @@ def test_shift_of_the_tilted_peak(evidence, id_, order, shift, holds):
     check(id_, evidence(peaks=table), shift, holds)
 
 
-PLACES = [(TILTED, 0.19), (STRAIGHT, 0.197), (STRAIGHT, 0.19), (TILTED, 0.197)]
-PLACES += [*PLACES[:2], (TILTED, 0.18), (STRAIGHT, 0.2), (STRAIGHT, 0.18), (TILTED, 0.2)]
-PLACES += PLACES[6:8]
-RUNS = {f"C11{part}": place for part, place in zip("abcdefghijkl", PLACES, strict=True)}
-"""Coating and speed of each claim; our f6 is 0.18 and 0.2."""
-
-
 def judged_run(evidence, id_, **run):
     """Measure a claim on `run` where it looks for one, and on runs that say otherwise everywhere else."""
     own = {"growth_per_revolution": 0.0, "growth_low": 0.0, "saturating": False, "divergent": False}
@@ -280,9 +279,6 @@ def judged_run(evidence, id_, **run):
     ]
     at = peak_rows((TILTED, 6, 0.18, 1.0), (STRAIGHT, 6, 0.2, 1.0), (TILTED, 4, 0.3, 1.0))
     return measure(id_, evidence(divergence=pd.DataFrame(rows), peaks=at))
-
-
-DIVERGENT = {"divergent": True, "status": "unbounded", "growth_low": -0.5}
 
 
 @pytest.mark.parametrize(
@@ -357,13 +353,8 @@ def test_distance_of_a_stiff_coating_from_the_rigid_casing(
 def test_share_of_divergent_runs_on_soft_coatings(evidence, n_divergent, holds):
     row = {**vars(CoatingCase("2nd", 0.1099, 0.5, 0.0)), "f_omega": 0.2, "divergent": True}
     soft = pd.DataFrame([row] * 1000).assign(divergent=np.arange(1000) < n_divergent)
-    others = pd.DataFrame([row, row, row, row]).assign(
-        E=[0.11, 0.1, 0.1, 0.1],
-        casing=["2nd", "2nd5nd", "2nd", "2nd"],
-        theta=[0.0, 0.0, 0.15, 0.0],
-        law=["theta", "theta", "theta", "coulomb"],
-    )
-    table = pd.concat([soft, others], ignore_index=True)
+    others = [row | {"E": 0.11}, row | {"casing": "2nd5nd"}, row | {"theta": 0.15}, row | {"law": "coulomb"}]
+    table = pd.concat([soft, pd.DataFrame(others)], ignore_index=True)
     check("C12b", evidence(divergence=table), n_divergent / 10, holds)
 
 
@@ -378,8 +369,8 @@ def test_a_small_study_leaves_out_what_it_cannot_tell_and_logs_it(evidence, capl
 
 
 def test_moduli_are_compared_along_rows_and_columns_with_two_of_them(evidence):
-    diagonal = {CRITICAL: 1.0, CoatingCase("2nd", 2.0, 0.1, 0.0): 0.3}
-    study = evidence(peaks=peak_rows(*((case, 4, 0.3, height) for case, height in diagonal.items())))
+    diagonal = (CRITICAL, 4, 0.3, 1.0), (CoatingCase("2nd", 2.0, 0.1, 0.0), 4, 0.3, 0.3)
+    study = evidence(peaks=peak_rows(*diagonal))
     assert measure("C6a", study).holds == "yes"
     assert not any(is_measured(id_, study) for id_ in ("C6b", "C7a", "C7b", "C8a", "C8b"))
 

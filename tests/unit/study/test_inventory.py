@@ -16,6 +16,8 @@ from bladerub.study.manifest import write_manifest
 from bladerub.study.plan import coating_plan
 from bladerub.study.store import read_run
 
+NONE = {"done": 0, "missing": 0, "stale": 0, "corrupt": 0, "unbounded": 0}
+
 
 @pytest.fixture
 def done(simulated, growing, compute, tmp_path):
@@ -36,9 +38,6 @@ def inventory(look):
 
 def counts(inventory):
     return {name: inventory[name] for name in NONE}
-
-
-NONE = {"done": 0, "missing": 0, "stale": 0, "corrupt": 0, "unbounded": 0}
 
 
 def test_what_is_missing_and_what_is_done_is_counted(inventory, request, tmp_path):
@@ -131,8 +130,6 @@ def test_what_the_system_refuses_to_read_is_neither_damaged_nor_computed_again(
 
 
 def refuse(monkeypatch, name):
-    """Let the system refuse to open the file `name`."""
-
     def opened(path, *arguments, **options):
         if os.path.basename(str(path)) == name:
             raise OSError(errno.EIO, os.strerror(errno.EIO))

@@ -13,25 +13,19 @@ from bladerub.study.manifest import (
 )
 
 OLDER = "\t".join(ManifestRow._fields[:9])
-ROWS = [
-    ManifestRow("0.1900.h5", 0.19, "a" * 64, "completed", 70_000, checksum="e" * 64),
-    ManifestRow("0.1970.h5", 0.197, "b", "unbounded", 1, checksum="f"),
-    ManifestRow("0.2000.h5", 0.2, "c", "completed", 2, "d" * 64, 3, "g", "h", 7, "i"),
-]
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "manifest.tsv"
-
-
-def test_a_manifest_comes_back_as_written_and_lists_runs_and_longer_runs(path):
-    write_manifest(path, ROWS)
+def test_a_manifest_comes_back_as_written_and_lists_runs_and_longer_runs(tmp_path):
+    path = tmp_path / "manifest.tsv"
+    rows = [
+        ManifestRow("0.1900.h5", 0.19, "a" * 64, "completed", 70_000, checksum="e" * 64),
+        ManifestRow("0.2000.h5", 0.2, "c", "unbounded", 2, "d" * 64, 3, "g", "h", 7, "i"),
+    ]
+    write_manifest(path, rows)
     assert path.read_text().startswith("\t".join([*ManifestRow._fields, "file checksum, sha256="]))
-    assert read_manifest(path) == ROWS
+    assert read_manifest(path) == rows
     assert listed_files(path) == [
         ListedFile(path.with_name("0.1900.h5"), 70_000, "e" * 64),
-        ListedFile(path.with_name("0.1970.h5"), 1, "f"),
         ListedFile(path.with_name("0.2000.h5"), 2, "g"),
         ListedFile(path.parent / "confirmation" / "0.2000.h5", 3, "h"),
     ]
@@ -46,7 +40,8 @@ def test_a_manifest_comes_back_as_written_and_lists_runs_and_longer_runs(path):
         b"0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\xff\t\t\n",
     ],
 )
-def test_what_is_not_a_manifest_is_an_error_with_its_name(path, content):
+def test_what_is_not_a_manifest_is_an_error_with_its_name(tmp_path, content):
+    path = tmp_path / "manifest.tsv"
     path.write_bytes(OLDER.encode() + b"\n" + content)
     with pytest.raises(OSError, match=r"manifest\.tsv: not a manifest"):
         read_manifest(path)

@@ -90,17 +90,10 @@ def test_the_table_has_a_row_per_run_judged_by_the_longer_one_where_there_is_one
     assert (table.growth_high > table.growth_per_revolution).all()
 
 
-@pytest.fixture
-def summed_up(spec, config):
-    """The summary of a result, as of the study's config."""
-
-    def of(result):
+def test_a_steady_and_a_growing_run(spec, config, make_result):
+    def summed_up(result):
         return summarise(stored_run(CASE, spec, result, "key", config["analysis"], False), config["analysis"])
 
-    return of
-
-
-def test_a_steady_run(summed_up, make_result):
     assert summed_up(make_result(order=6, amplitude=1e-3, depth=2e-4)) == {
         "peak_amplitude": pytest.approx(1e-3, rel=1e-4),
         "engine_order": 6.0,
@@ -118,9 +111,6 @@ def test_a_steady_run(summed_up, make_result):
         "n_steps": 1000,
         "status": "completed",
     }
-
-
-def test_a_growing_run(summed_up, make_result):
     summary = summed_up(make_result(order=4, growth=0.03))
     assert (summary["divergent"], summary["saturating"]) == (True, False)
     assert summary["peak_amplitude"] == pytest.approx(1e-3 * 1.03**19, rel=1e-4)

@@ -6,6 +6,7 @@ from bladerub.study.spectra import order_spectrum
 from bladerub.study.wear import dominant_harmonic, lobes
 
 SAMPLES = 400
+PROMINENCE = 0.2
 
 
 def sine(order, revolutions=20, amplitude=1.0, phase=0.3):
@@ -17,17 +18,14 @@ def spectrum(u):
     return order_spectrum(u, 20, 10, 24.0)
 
 
-@pytest.mark.parametrize("order", [1, 4, 6, 6.1, 23.9])
-def test_a_sine_on_a_bin_reads_its_amplitude(order):
+@pytest.mark.parametrize("order", [4, 6.1, 23.9])
+def test_a_sine_reads_its_amplitude_and_half_way_between_bins_the_scalloping_of_the_window(order):
     orders, amplitude = spectrum(sine(order, amplitude=2e-3))
     assert orders[np.argmax(amplitude)] == pytest.approx(order)
     assert amplitude.max() == pytest.approx(2e-3, rel=1e-9)
     assert amplitude[np.abs(orders - order) > 0.15].max() < 1e-12  # the Hann window leaks to one neighbour
-
-
-def test_a_sine_half_way_between_bins_reads_the_scalloping_of_the_window():
-    _, amplitude = spectrum(sine(6.05))
-    assert amplitude.max() == pytest.approx(8 / (3 * np.pi), rel=1e-3)  # Harris 1978, Hann: 1.42 dB
+    _, between = spectrum(sine(order - 0.05))
+    assert between.max() == pytest.approx(8 / (3 * np.pi), rel=1e-3)  # Harris 1978, Hann: 1.42 dB
 
 
 def test_two_sines_and_the_mean_of_the_last_complete_revolutions_do_not_mix():
@@ -47,9 +45,6 @@ def test_a_short_run_keeps_bins_and_amplitude_at_less_resolution():
     assert order.size == 241
     assert amplitude[60] == pytest.approx(1.0, rel=1e-2)
     assert amplitude[50] < 1e-9  # two bins of three revolutions away
-
-
-PROMINENCE = 0.2
 
 
 def pattern(angle, n, unequal=0.0, phase=0.0):
@@ -76,11 +71,10 @@ def test_shallow_lobes_and_those_that_the_mean_of_the_nodes_levels_do_not_count(
     assert lobes(angle, 1e-3 * (1 + 0.05 * np.cos(7 * angle)), PROMINENCE) == 0
 
 
-@pytest.mark.parametrize("depth", [0.0, 1e-3])
-def test_no_wear_and_an_even_ring_have_neither_lobes_nor_a_harmonic(angle, depth):
-    even = np.full((8, angle.size), depth)
-    assert lobes(angle, even, PROMINENCE) == 0
-    assert dominant_harmonic(even) == (0, 0.0)
+def test_no_wear_and_an_even_ring_have_neither_lobes_nor_a_harmonic(angle):
+    for even in (np.zeros((8, angle.size)), np.full((8, angle.size), 1e-3)):
+        assert lobes(angle, even, PROMINENCE) == 0
+        assert dominant_harmonic(even) == (0, 0.0)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -98,12 +92,9 @@ def test_a_rough_pattern_has_as_many_peaks_as_the_library_finds(angle, seed):
         assert lobes(angle, wear, prominence) == len(expected) > 0
 
 
-@pytest.mark.parametrize("count", [1, 1000])
-def test_one_harmonic_has_all_of_the_variance(angle, count):
-    assert dominant_harmonic(1e-3 * (1.5 + np.sin(count * angle + 0.3))) == (count, pytest.approx(1.0))
-
-
 def test_the_share_of_a_harmonic_is_that_of_the_variance_of_the_mean_over_the_nodes(angle):
     wear = 1e-3 * (3 + 2 * np.cos(4 * angle) + np.cos(6 * angle) + np.sin(1000 * angle))
     nodes = np.stack([wear, wear]) + 1e-3 * np.array([[1], [-1]]) * np.cos(9 * angle)
     assert dominant_harmonic(nodes) == (4, pytest.approx(4 / 7))
+    for count in (1, 1000):
+        assert dominant_harmonic(1e-3 * (1.5 + np.sin(count * angle + 0.3))) == (count, pytest.approx(1.0))

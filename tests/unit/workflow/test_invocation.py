@@ -17,17 +17,12 @@ from bladerub.workflow.studies import rules_of_studies
 
 @pytest.fixture
 def manifest(tmp_path):
-    """Of two runs, one of which has a longer one."""
-    folder = tmp_path / "results" / "runs" / "2nd_E2_K0.5_theta0"
-    (folder / "confirmation").mkdir(parents=True)
+    (tmp_path / "confirmation").mkdir()
     for name, size in (("0.1.h5", 10), ("0.2.h5", 20), ("confirmation/0.2.h5", 30)):
-        (folder / name).write_bytes(bytes(size))
-    rows = [
-        ManifestRow("0.1.h5", 0.1, "a", "completed", 10),
-        ManifestRow("0.2.h5", 0.2, "b", "completed", 20, "c", 30),
-    ]
-    write_manifest(folder / "manifest.tsv", rows)
-    return folder / "manifest.tsv"
+        (tmp_path / name).write_bytes(bytes(size))
+    rows = [("0.1.h5", 0.1, "a", "completed", 10), ("0.2.h5", 0.2, "b", "completed", 20, "c", 30)]
+    write_manifest(tmp_path / "manifest.tsv", [ManifestRow(*row) for row in rows])
+    return tmp_path / "manifest.tsv"
 
 
 @pytest.mark.parametrize(

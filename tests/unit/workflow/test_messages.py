@@ -7,11 +7,11 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 from snakemake_logger_plugin_bladerub import LONGEST, LogHandler
 
+PLAN = logging.INFO, "table", {"event": LogEvent.RUN_INFO, "stats": {"coating": 2, "fig11_Y4": 1, "total": 3}}
+
 
 @pytest.fixture
 def lines(capsys):
-    """Hand records to a handler; return the lines that it prints."""
-
     def printed(*records, verbose=False, dryrun=False):
         handler = LogHandler(SimpleNamespace(verbose=verbose, dryrun=dryrun, stdout=False), None)
         handler.setFormatter(DefaultFormatter())
@@ -28,9 +28,6 @@ def begun(number, rule):
 
 def done(number):
     return logging.INFO, "", {"event": LogEvent.JOB_FINISHED, "job_id": number}
-
-
-PLAN = logging.INFO, "table", {"event": LogEvent.RUN_INFO, "stats": {"coating": 2, "fig11_Y4": 1, "total": 3}}
 
 
 def test_a_line_for_the_plan_and_for_each_stage_that_is_done(lines):

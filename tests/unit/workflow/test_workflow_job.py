@@ -1,4 +1,5 @@
 import ast
+import io
 import subprocess
 import sys
 from pathlib import Path
@@ -8,9 +9,13 @@ import pandas as pd
 import pytest
 from matplotlib.image import imread
 
+from bladerub.config import read as configuration
 from bladerub.io import tables
 from bladerub.plots import style
+from bladerub.study.job import RunDone
 from bladerub.workflow import outputs
+from bladerub.workflow.cores import costs_of, priority_of, threads_for
+from bladerub.workflow.progress import JobProgress
 
 SCRIPT = """
 import sys
@@ -20,6 +25,8 @@ job.log_to(sys.argv[1])
 print("at work", file=sys.stderr)
 {}
 """
+SCRIPTS = sorted([*Path("src/scripts").glob("*.py"), *Path("studies").glob("*/scripts/*.py")])
+TABLE = pd.DataFrame({"f_omega": [0.1234567891], "theta": [0.15]})
 
 
 @pytest.mark.parametrize(
@@ -43,18 +50,12 @@ def test_an_error_is_one_line_for_the_caller_and_the_traceback_of_another_is_in_
     assert text.endswith("ZeroDivisionError: division by zero\n") == (statement == "1 / 0")
 
 
-SCRIPTS = sorted([*Path("src/scripts").glob("*.py"), *Path("studies").glob("*/scripts/*.py")])
-
-
 def test_the_log_of_a_job_is_open_before_its_imports():
     """So that it has their errors, and the traceback of an interrupt, which takes them where it can."""
     logged = ["from bladerub.workflow import job", "job.log_to(snakemake.log[0])"]
     for script in SCRIPTS:
         _, *first = ast.parse(script.read_text(encoding="utf-8")).body[:3]
         assert [ast.unparse(statement) for statement in first] == logged, script
-
-
-TABLE = pd.DataFrame({"f_omega": [0.1234567891], "theta": [0.15]})
 
 
 @pytest.fixture
@@ -91,3 +92,40 @@ def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need(
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
+
+
+@pytest.mark.parametrize(
+    ("cost", "cores", "threads"), [(1, 16, 1), (1, 64, 5), (10, 4, 3), (100, 4, 4), (10, None, 1)]
+)
+def test_a_job_larger_than_the_share_of_a_core_has_more_threads(cost, cores, threads):
+    assert threads_for(cost, 100, cores) == threads
+
+
+def test_the_study_begins_with_the_coating_of_fig_6_and_the_stiffest():
+    """The largest ensembles and the slowest runs: either would otherwise end long after all else."""
+    costs = costs_of(configuration.read("config/config.yaml", command_line={}))
+    first, second, *_ = sorted(costs.runs, key=lambda coating: -priority_of(coating, costs))
+    assert (first, second.partition("_K")[0]) == ("2nd5nd_E11_K0.5_theta0", "2nd_E20")
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def done(number, total):
+    return RunDone(number, total, "0.1000.h5", "completed", 0.1, 0.2)
+
+
+def test_each_run_is_a_line_of_the_log_and_the_bar_is_on_a_terminal_only(tmp_path):
+    terminal, file = Terminal(), io.StringIO()
+    for stream in (terminal, file):
+        log = io.StringIO()
+        progress = JobProgress("2nd_E2_K0.5_theta0", log, stream, tmp_path / "turn")
+        progress(done(1, 2))
+        progress(done(2, 2))
+        progress.summary([])
+        assert log.getvalue().splitlines()[:2] == [str(done(1, 2)), str(done(2, 2))]
+    assert "2nd_E2_K0.5_theta0" in terminal.getvalue()
+    assert "/2 |" in terminal.getvalue()
+    assert file.getvalue() == ""

@@ -77,7 +77,6 @@ def in_steps(scheme, q, n_steps):
 
 
 def after_flight(scheme, q):
-    """The record after a free flight, and what it returned."""
     rule, n = modal.pack(scheme), scheme.omega.size
     flight = free_flight.free_flight(scheme, STEPS, SLOPE, EDGE)
     padded = np.zeros((3, rule.n))

@@ -26,11 +26,8 @@ def parts(blade, spec, change):
     def build(**changes):
         chosen = change(spec, n_elements=2000, **changes)
         angle = chosen.coating.theta
-        contact = Contact(
-            np.full(LANES, 1e7 if np.isfinite(chosen.coating.E) else np.inf),
-            -math.cos(angle),
-            -math.sin(angle),
-        )
+        stiffness = np.full(LANES, 1e7 if np.isfinite(chosen.coating.E) else np.inf)
+        contact = Contact(stiffness, -math.cos(angle), -math.sin(angle))
         rule = SCHEMES["exponential"](modes_at(blade, 0.3), 0.0, STEP, contact)
         state = records.at_rest(rule.omega.size, 2000)
         tip = tip_record(blade, chosen)
@@ -60,9 +57,8 @@ def test_the_same_forces_as_newton(parts, depth, theta):
     state.force[:], state.normal_force[:] = 0.0, 0.0
     u[:] = free
     sweep(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
-    for found, expected in zip(
-        (state.force[0], state.normal_force[0], u[: 2 * LANES]), by_newton, strict=True
-    ):
+    by_sweeps = state.force[0], state.normal_force[0], u[: 2 * LANES]
+    for found, expected in zip(by_sweeps, by_newton, strict=True):
         tolerance = 2 * newton.TOLERANCE / abs(depth)  # of heights, in parts of the penetration
         np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance * np.abs(expected).max())
     assert (state.normal_force[0] > 0).sum() >= (8 if depth > 0 else 0)

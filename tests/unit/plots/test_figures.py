@@ -1,17 +1,44 @@
+import math
 from dataclasses import replace
 
+import matplotlib
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d import Axes3D
 
-from bladerub.plots import bins, engine_orders
+from bladerub.io import hdf5
+from bladerub.io.hdf5 import Variable
+from bladerub.plots import bins, engine_orders, style, titles
 from bladerub.plots.campbell import campbell
+from bladerub.plots.histogram import peak_histogram
+from bladerub.plots.history import history
 from bladerub.plots.polar import casing_polar, wear_profiles
 from bladerub.plots.scales import Engine, Scales
 from bladerub.plots.spectrum import ORDERS, PeakSection, peak_sections, spectrum_map
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import CoatingCase
 from bladerub.study.peaks import Peak
+
+RANGE = (5e-7, 5e-4)
+ANGLE = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+ENGINE = Engine(f1_hz=850.0, nominal_speed=15300.0)  # f_omega = 0.3
+SCALES = Scales(modulus_unit=0.6e9, length=0.066, engine=ENGINE)
+PEAKS = pd.DataFrame(
+    [
+        ("2nd", 1.1, 0.5, 0.0, 4, 0.31, 2e-3),
+        ("2nd", 0.11, 0.5, 0.0, 4, 0.30, 1e-3),
+        ("2nd", 0.11, 5.0, 0.0, 4, 0.32, 3e-3),
+        ("2nd", 1.1, 0.5, 0.0, 6, 0.2, 9e-3),
+    ],
+    columns=["casing", "E", "K", "theta", "order", "f_peak", "amplitude"],
+)
+REVOLUTION = (np.arange(200) + 0.5) / 50
+STEADY = 1e-4 * np.sin(12 * np.pi * REVOLUTION)
+GROWING = STEADY * np.exp(REVOLUTION / 2)
+GROWING[150:] = np.nan
+AMPLITUDE = [1.6e-4, 2.7e-4, 4.4e-4, np.nan]
 
 
 def test_depth_over_speed_and_angle(coating_map, draws):
@@ -22,9 +49,6 @@ def test_depth_over_speed_and_angle(coating_map, draws):
     completed, early = lower.lines
     np.testing.assert_array_equal(completed.get_ydata(), [5, 5, 10, 5, 5])
     np.testing.assert_array_equal(early.get_xydata(), [[0.35, 4]])
-
-
-RANGE = (5e-7, 5e-4)
 
 
 def test_amplitudes_and_c1_lie_on_their_frequency_on_the_given_scale(coating_map, draws):
@@ -49,9 +73,6 @@ def test_peaks_are_drawn_with_their_curves(coating_map, draws):
     lines = draws(peak_sections(coating_map, sections, RANGE, f_max=2.5)).axes[1].lines
     curves = [line.get_xdata() for line in lines if line.get_label().startswith("eo(")]
     np.testing.assert_allclose(curves, [1e3 * four, 1e3 * six])
-
-
-ANGLE = np.linspace(0, 2 * np.pi, 60, endpoint=False)
 
 
 def test_casing_is_magnified_inward(draws):
@@ -88,10 +109,6 @@ def test_lines_have_slope_k_and_end_at_the_frame(over):
         assert speed == pytest.approx(0.4) or f == pytest.approx(2.0)
 
 
-ENGINE = Engine(f1_hz=850.0, nominal_speed=15300.0)  # f_omega = 0.3
-SCALES = Scales(modulus_unit=0.6e9, length=0.066, engine=ENGINE)
-
-
 def second(axes, along):
     """Limits of the second scale along "x" or "y"."""
     axes.figure.canvas.draw()
@@ -100,7 +117,6 @@ def second(axes, along):
 
 
 def nominal(axes):
-    """Where the line of the nominal speed is."""
     (line,) = [line for line in axes.lines if "nominal" in line.get_label()]
     return line.get_xdata()[0]
 
@@ -131,3 +147,77 @@ def test_an_extra_speed_opens_no_gap_and_missing_speeds_do():
     edges, rows = bins.with_gaps([0.1, 0.11, 0.12, 0.3, 0.31], np.arange(5.0)[:, None])
     np.testing.assert_allclose(edges, [0.095, 0.105, 0.115, 0.13, 0.29, 0.305, 0.315])
     np.testing.assert_array_equal(rows[:, 0], [0, 1, 2, np.nan, 3, 4])
+
+
+def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(draws, monkeypatch):
+    bars = []
+    monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
+    table, figure = peak_histogram(PEAKS, "amplitude", order=4, unit=600e6)
+    pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="f_peak"))
+    ((x, y, floor, width, depth, height),) = bars
+    places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
+    np.testing.assert_array_equal(places, [[0, 0], [0, 1], [1, 0]])
+    np.testing.assert_allclose(floor + height, [1.0, 3.0, 2.0])
+    _, cells, _ = draws(figure).axes
+    assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
+
+
+def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(tmp_path, draws):
+    paths = []
+    for theta, displacement, amplitude in ((0.0, STEADY, [1e-4] * 4), (0.15, GROWING, AMPLITUDE)):
+        paths.append(tmp_path / f"{theta}.h5")
+        variables = {
+            "revolution": Variable(("revolution",), REVOLUTION, "1", "time"),
+            "radial_displacement": Variable(("revolution",), displacement, "m", "of node 1"),
+            "revolution_peak": Variable(("revolution_number",), 2 * np.asarray(amplitude), "m", "largest"),
+            "revolution_amplitude": Variable(("revolution_number",), amplitude, "m", "half range"),
+            "wear": Variable(("node",), np.zeros(8), "m", "worn depth"),
+            "spectrum_amplitude": Variable(("spectrum_order",), np.zeros(3), "m", "amplitude"),
+        }
+        about = {"casing": "2nd", "E": 2.0, "K": 0.5, "theta": theta, "f_omega": 0.19, "run_key": "key"}
+        hdf5.write(paths[-1], variables, about)
+    table, figure = history(paths)
+    axes = draws(figure).axes
+    for panel, displacement in zip(axes, (STEADY, GROWING), strict=False):
+        np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * displacement)
+    assert axes[0].get_ylim() == axes[1].get_ylim()
+    assert axes[0].get_ylim()[1] > 1e3 * np.nanmax(np.abs(GROWING))
+    steady, growing = axes[2].lines
+    np.testing.assert_allclose(steady.get_xydata(), np.transpose([[0.5, 1.5, 2.5, 3.5], [0.1] * 4]))
+    np.testing.assert_allclose(growing.get_ydata(), 1e3 * np.array(AMPLITUDE))
+    assert list(table.columns) == ["theta", "revolution", "radial_displacement"]
+    np.testing.assert_array_equal(table[table.theta == 0.15].radial_displacement, GROWING)
+
+
+def test_equal_figures_give_equal_files_and_leave_the_settings_of_the_session_alone(tmp_path):
+    before = dict(matplotlib.rcParams)
+
+    @style.styled
+    def draw():
+        assert matplotlib.rcParams["axes.spines.top"] is False
+        figure = style.new_figure(2, 1)
+        figure.add_subplot().plot([0, 1])
+        return figure
+
+    for name in "ab":
+        style.save(draw(), tmp_path / f"{name}.png", tmp_path / f"{name}.pdf", dpi=50)
+    for suffix in ("png", "pdf"):
+        assert (tmp_path / f"a.{suffix}").read_bytes() == (tmp_path / f"b.{suffix}").read_bytes()
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_coatings_are_named_by_their_law():
+    coulomb = CoatingCase("2nd", 2.0, 0.5, math.atan(0.15), "coulomb")
+    assert titles.coating(CoatingCase("2nd", 2.0, 0.5, 0.15)) == "casing 2nd, E = 2, K = 0.5, θ = 0.15 rad"
+    assert titles.coating(coulomb) == "casing 2nd, E = 2, K = 0.5, μ = 0.15"
+    assert titles.coating(CoatingCase.rigid("2nd", 0.15)) == "rigid casing 2nd, μ = 0.15"
+
+
+def test_logarithmic_axes_without_data_are_drawn(draws):
+    figure = style.new_figure(2, 1)
+    for axes, data in zip(figure.subplots(1, 3, sharey=True), ([], [math.nan], [0.1]), strict=True):
+        axes.plot(data, data)
+        axes.set(xscale="log", yscale="log")
+    axes = draws(figure).axes
+    assert [one.get_xscale() for one in axes] == ["linear", "linear", "log"]
+    assert {one.get_yscale() for one in axes} == {"log"}
