@@ -23,19 +23,29 @@ MULTIPLES = (1, 2, 4)
 
 _SURFACE = ["casing", "theta", "order"]
 
+COLUMNS = [
+    *(*_SURFACE, "along", "speed_step", "E", "K", "E_T", "f_peak", "amplitude"),
+    *("lowest_neighbour", "highest_neighbour"),
+]
+"""Columns of ``chart_ridge.csv``."""
+SUMMARY = [
+    *(*_SURFACE, "speed_step", "E", "K", "E_T", "f_peak", "amplitude", "lowest_E_T", "highest_E_T"),
+    *("neighbour_spread", "height_lost", "K_shift"),
+]
+"""Columns of ``chart_ridge_summary.csv``."""
+
 
 def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFrame:
     """Find the ridges.
 
-    A row for each point on a ridge: ``casing, theta, order, along, speed_step, E, K, E_T, f_peak``,
-    ``amplitude`` (m), and ``lowest_neighbour`` and ``highest_neighbour`` (m).
+    A row with `COLUMNS`, m, for each point on a ridge; NaN for the neighbours if none of them has a peak.
     """
     points, rows = list(points), []
     for multiple in MULTIPLES:
         for surface, peaks in _peaks(config, points, multiple).groupby(_SURFACE):
             about = dict(zip(_SURFACE, surface, strict=True))
             rows += [about | row for row in _ridge(peaks, config["speeds"]["step"] * multiple)]
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def _peaks(config: Mapping[str, Any], points: list[ChartPoint], multiple: int) -> pd.DataFrame:
@@ -64,6 +74,7 @@ def _ridge(peaks: pd.DataFrame, speed_step: float) -> Iterator[dict[str, Any]]:
             continue
         around = Y[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2].copy()
         around[min(i, 1), min(j, 1)] = np.nan
+        neighbours = pd.Series(around.ravel())
         yield {
             "along": along,
             "speed_step": round(speed_step, 9),
@@ -72,8 +83,8 @@ def _ridge(peaks: pd.DataFrame, speed_step: float) -> Iterator[dict[str, Any]]:
             "E_T": contact_stiffness(E[i], K[j]),
             "f_peak": speed[i, j],
             "amplitude": Y[i, j],
-            "lowest_neighbour": np.nanmin(around),
-            "highest_neighbour": np.nanmax(around),
+            "lowest_neighbour": neighbours.min(),
+            "highest_neighbour": neighbours.max(),
         }
 
 
@@ -103,4 +114,4 @@ def summary(ridges: pd.DataFrame) -> pd.DataFrame:
                     "K_shift": np.exp(np.abs(np.log(line.K / finest.K)).median()),
                 }
             )
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=SUMMARY)

@@ -45,6 +45,21 @@ def test_a_row_sums_up_a_cell(config, make_point):
     assert {entry(name) for name in found.index} <= described_columns(*plugins.files("columns.csv")).keys()
 
 
+def test_a_chart_without_any_peak_has_tables(config, chart):
+    unbounded = [
+        replace(point, spectrum_amplitude=np.full_like(point.spectrum_amplitude, np.nan)) for point in chart
+    ]
+    ridges, peaks = ridge.table(config, unbounded), explanation.table(config, unbounded)
+    assert list(ridge.summary(ridges).columns) == ridge.SUMMARY
+    assert (len(ridges), len(peaks), peaks.amplitude.count()) == (0, 2 * len(chart), 0)
+    (alone,) = (
+        ridge.table(config, [chart[0], *unbounded[1:]])
+        .query("along == 'E' and order == 4 and speed_step < 3e-3")
+        .itertuples()
+    )
+    assert np.isnan([alone.lowest_neighbour, alone.highest_neighbour]).all()
+
+
 def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K(config, chart):
     ridges = ridge.table(config, chart)
     finest = ridges[(ridges.order == 4) & (ridges.speed_step == 0.002)]
