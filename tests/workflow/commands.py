@@ -1,12 +1,9 @@
 """Every command of the program on the tiny study, as a user gives it."""
 
 import subprocess
-import sys
-from pathlib import Path
 
 from workspace import Workspace
 
-BIN = Path(sys.executable).parent
 COATING = "2nd_E1.1_K0.5_theta0"
 RUN = ("run", "--casing", "2nd", "--E", "1.1", "--K", "0.5", "--f", "0.197", "--revolutions", "2")
 ON_RESULTS = [
@@ -42,13 +39,4 @@ def call(study: Workspace, command: tuple[str, ...], **environment: str) -> subp
         arguments += ["--configfile", "overlay.yaml"]
     elif name == "bladerub" and arguments[0] not in ("new", "config", "compare"):
         arguments += ["--config", "overlay.yaml"]
-    return subprocess.run(
-        [BIN / name, *arguments],
-        cwd=study.folder,
-        env=study.environment | environment,
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        timeout=600,
-        encoding="utf-8",
-        errors="replace",
-    )
+    return study.call(name, *arguments, **environment)

@@ -1,7 +1,6 @@
 """Explorer and report of the tiny study in a real browser; skipped where there is none."""
 
 import shutil
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -160,7 +159,7 @@ def test_a_link_restores_the_view(explorer):
 @pytest.mark.parametrize("width", [1400, 420])
 def test_the_report_fits_a_screen_and_a_phone(study, driver, tmp_path, width):
     page = tmp_path / "report.html"
-    done = study.call(Path(sys.executable).with_name("bladerub"), "report", "-o", page)
+    done = study.call("bladerub", "report", "-o", page)
     assert done.returncode == 0, done.stderr
     assert page.stat().st_size < 5e6
     size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}

@@ -27,16 +27,10 @@ DATASETS = {
 COATING_KEYS = ["casing", "E", "K", "theta"]
 KEYS = {
     "blade/rom_accuracy": ["f_omega", "mode"],
-    "tables/campbell": ["f_omega", "mode"],
-    "tables/rom_accuracy": ["f_omega", "mode"],
     "tables/peaks": [*COATING_KEYS, "order"],
-    "tables/divergence": [*COATING_KEYS, "f_omega"],
-    "tables/findings": ["id"],
     "tables/margins": ["variation", "id"],
     "benchmarks/cost": ["rule", "job"],
     "figures/fig05_casing": ["nodal_diameters", "angle"],
-    "figures/fig10_peaks": ["order", "f_omega"],
-    "figures/fig11_Y4": [*COATING_KEYS, "order"],
     "figures/fig17_history_0190": ["theta", "revolution"],
     "figures/fig19_wear_polar": ["f_omega", "theta", "angle"],
 }

@@ -1,7 +1,6 @@
 """A study of one's own, as `bladerub new` lays it out: the real workflow, taken in as a module."""
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
@@ -27,7 +26,7 @@ def call(study):
     """Run a command of the environment in a folder, with the sources of the tests."""
 
     def call(folder: Path, program: str, *arguments: str) -> str:
-        done = Workspace(folder, study.sources).call(Path(sys.executable).with_name(program), *arguments)
+        done = Workspace(folder, study.sources).call(program, *arguments)
         assert done.returncode == 0, done.stderr
         return done.stdout
 

@@ -1,10 +1,5 @@
 """One run by the workflow, the command line and the Python interface, with any number of threads of BLAS."""
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -28,24 +23,24 @@ print(blade.path)
 @pytest.fixture(
     params=["2", pytest.param("1", marks=pytest.mark.nightly), pytest.param("", marks=pytest.mark.nightly)]
 )
-def environment(request, tmp_path, copied_study):
-    limits = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), request.param)
-    given = {name: value for name, value in os.environ.items() if name not in limits}
-    given |= {"PYTHONPATH": str(copied_study.sources), "BLADERUB_CACHE": str(tmp_path / "cache")}
-    return given | (limits if request.param else {})
+def environment(request, tmp_path, monkeypatch):
+    limits = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+    for name in limits:
+        monkeypatch.delenv(name, raising=False)
+    given = {"BLADERUB_CACHE": str(tmp_path / "cache")}
+    return given | (dict.fromkeys(limits, request.param) if request.param else {})
 
 
 def test_a_run_is_the_same_wherever_it_is_asked_for(copied_study, environment, tmp_path):
-    def call(*command: str | Path) -> str:
-        done = subprocess.run(
-            command, cwd=copied_study.folder, env=environment, capture_output=True, text=True, check=True
-        )
+    def call(*command: str) -> str:
+        done = copied_study.call(*command, **environment)
+        assert done.returncode == 0, done.stderr
         return done.stdout.strip()
 
     of_workflow = read_run(copied_study.results / RUN)
     by_command, by_interface = tmp_path / "command.h5", tmp_path / "interface.h5"
-    call(Path(sys.executable).with_name("bladerub"), *OPTIONS.split(), "--output", str(by_command))
-    blade = call(sys.executable, "-c", PROGRAM, str(by_interface))
+    call("bladerub", *OPTIONS.split(), "--output", str(by_command))
+    blade = call("python", "-c", PROGRAM, str(by_interface))
     built = copied_study.results / "hidden" / "reduced_model.h5"
     assert blade_digest(blade) == blade_digest(built)
     for path in (by_command, by_interface):

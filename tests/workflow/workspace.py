@@ -18,6 +18,7 @@ import yaml
 from bladerub.study.store import read_run
 
 ROOT = Path(__file__).parents[2]
+BIN = Path(sys.executable).parent
 
 # every figure can be drawn, but for one coating where the paper has many
 TINY = {
@@ -38,15 +39,10 @@ TINY = {
 
 @dataclass
 class Workspace:
-    """A copy of what the workflow needs, and the command that runs it there.
+    """A copy of what the workflow needs, and the commands that run there.
 
-    Parameters
-    ----------
-    folder : Path
-        With the Snakefile.
-    sources : Path
-        Those that the package is imported from: of this copy, or the same of the repository, where the
-        machine code is that takes some seconds to make.
+    The package is imported from `sources`: of this copy, or the same of the repository, where the machine
+    code is that takes some seconds to make.
     """
 
     folder: Path
@@ -65,13 +61,9 @@ class Workspace:
         shutil.copytree(self.folder, folder, ignore=shutil.ignore_patterns(*without))
         return Workspace(folder, self.sources)
 
-    def use_own_sources(self) -> None:
-        """From now on import the package from this copy."""
-        self.sources = self.folder / "src"
-
     def edit(self, file: str, before: str, after: str) -> None:
         """Change the first `before` of a file of the package into `after`, in this copy."""
-        self.use_own_sources()
+        self.sources = self.folder / "src"
         path = self.sources / "bladerub" / file
         text = path.read_text(encoding="utf-8")
         assert before in text
@@ -105,7 +97,7 @@ class Workspace:
             text = config if isinstance(config, str) else yaml.safe_dump(config)
             (self.folder / "overlay.yaml").write_text(text)
             arguments = (*arguments, "--configfile", "overlay.yaml")
-        command = [str(Path(sys.executable).with_name("snakemake")), *arguments]
+        command = [str(BIN / "snakemake"), *arguments]
         with tempfile.TemporaryDirectory() as scratch:
             stdout, stderr = Path(scratch) / "stdout", Path(scratch) / "stderr"
             call = {"folder": self.folder, "environment": self.environment, "arguments": command}
@@ -115,16 +107,19 @@ class Workspace:
             code = int(server.stdout.readline())
             return subprocess.CompletedProcess(command, code, stdout.read_text(), stderr.read_text())
 
-    def call(self, *command: str | Path) -> subprocess.CompletedProcess:
-        """Run a command in this copy."""
+    def call(
+        self, program: str | Path, *arguments: str | Path, **environment: str
+    ) -> subprocess.CompletedProcess:
+        """Run a program of the environment in this copy."""
         return subprocess.run(
-            command,
+            [BIN / program, *arguments],
             cwd=self.folder,
-            env=self.environment,
+            env=self.environment | environment,
             stdin=subprocess.DEVNULL,
             capture_output=True,
-            text=True,
             timeout=600,
+            encoding="utf-8",
+            errors="replace",
         )
 
     def plan(self, config: dict[str, Any], *targets: str) -> dict[str, int]:
@@ -148,16 +143,10 @@ class Workspace:
 
     def status(self, *options: str) -> dict[str, Any]:
         """What `bladerub status` says of the study that was last given to Snakemake."""
-        own_sources = {"PYTHONPATH": str(self.folder / "src")}  # its results are those beside its sources
-        program = Path(sys.executable).with_name("bladerub")
-        told = subprocess.run(
-            [program, "status", "--json", "--config", "overlay.yaml", *options],
-            cwd=self.folder,
-            env=os.environ | own_sources,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
+        own_sources = str(self.folder / "src")  # its results are those beside its sources
+        command = ("bladerub", "status", "--json", "--config", "overlay.yaml", *options)
+        told = self.call(*command, PYTHONPATH=own_sources)
+        assert told.returncode == 0, told.stderr
         return json.loads(told.stdout)
 
 
