@@ -1,20 +1,30 @@
 import dataclasses
-from pathlib import Path
 
 import pytest
-import yaml
 
 from bladerub.blade.build import build
+from bladerub.config.read import load
 from bladerub.contact.run import simulate
+from bladerub.io.folders import ROOT
 from bladerub.study.grid import CoatingCase, run_spec
 
-CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+
+@pytest.fixture
+def paper_config():
+    """The paper's study, to change at will."""
+    return load(ROOT / "config" / "config.yaml")
+
+
+@pytest.fixture(scope="session")
+def built():
+    """The default blade as it is built for the paper's study."""
+    return build(load(ROOT / "config" / "config.yaml"))
 
 
 @pytest.fixture(scope="session")
 def coarse_config():
     """The paper's study on a coarse mesh of the same blade, which is built in a second."""
-    config = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
+    config = load(ROOT / "config" / "config.yaml")
     config["blade"]["mesh"] = {"chordwise": 8, "thickness": 2, "spanwise": 8}
     config["reduction"].update(accuracy_speeds=2, accuracy_modes=7)
     return config

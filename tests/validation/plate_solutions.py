@@ -1,4 +1,4 @@
-"""Cantilever plates, flat, twisted or curved: their shape, and their frequencies by a Ritz method.
+"""Cantilevers, straight, twisted or curved: their elements, and their frequencies by a Ritz method.
 
 The displacements are products of Legendre polynomials over the whole plate, in three dimensions, so the
 method shares Hooke's law with the finite elements and nothing else: no element, no mesh, no quadrature of
@@ -8,6 +8,22 @@ theirs. Its frequencies fall towards the exact ones as terms are added.
 import numpy as np
 from numpy.polynomial import Legendre
 from scipy.linalg import eigh
+
+from bladerub.blade.elasticity import Solid
+from bladerub.blade.mesh import hexahedral_mesh
+
+
+def clamped(points, counts, material, grading=1.0):
+    """Hexahedra (chordwise, spanwise) of what `points` makes of the cube, clamped at ζ = 0."""
+    across, along = (np.linspace(0, 1, count + 1) for count in counts)
+    mesh, cube = hexahedral_mesh(across, np.array([0.0, 1.0]), along**grading, points)
+    return Solid(mesh, material, np.flatnonzero(cube[2] == 0))
+
+
+def straight(size, foot=0.0):
+    """Map the unit cube to a box along z, about the axis of x and y, from the height `foot` on."""
+    size, shift = np.array(size)[:, None], np.array([[0.5], [0.5], [0.0]])
+    return lambda *cube: (np.stack(cube) - shift) * size + np.array([[0.0], [0.0], [foot]])
 
 
 def twisted(length, chord, thickness, degrees):

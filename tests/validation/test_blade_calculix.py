@@ -5,11 +5,9 @@ The decks are those of `bladerub.extras.export.calculix`. The test needs the sol
 
 import shutil
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from skfem import MeshTet1
 
 from bladerub.blade.build import build
@@ -20,18 +18,16 @@ from bladerub.extras.export.calculix import frequencies, write_decks
 from bladerub.extras.export.mesh_file import write_mesh_file
 
 CCX = shutil.which("ccx")
-CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 SPEEDS = [0.0, 0.2, 0.4]
 
 pytestmark = pytest.mark.skipif(CCX is None, reason="CalculiX (ccx) is not installed")
 
 
-@pytest.fixture(scope="module")
-def config():
-    config = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
-    config["blade"]["mesh"] = {"chordwise": 14, "thickness": 1, "spanwise": 10}
-    config["reduction"]["accuracy_speeds"] = len(SPEEDS)
-    return config
+@pytest.fixture
+def config(paper_config):
+    paper_config["blade"]["mesh"] = {"chordwise": 14, "thickness": 1, "spanwise": 10}
+    paper_config["reduction"]["accuracy_speeds"] = len(SPEEDS)
+    return paper_config
 
 
 def largest_differences(config, folder):

@@ -7,11 +7,8 @@ angles, where the stress is singular like r^(λ − 1), λ the root of sin²(λ�
 2λ = 1.4 for ν = 0.32. On the meshes in use it lies between the two. Convergence is from above.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-import yaml
 from scipy.optimize import brentq
 
 from bladerub.blade import geometry
@@ -22,14 +19,13 @@ from bladerub.blade.rotation import equilibrium
 
 pytestmark = pytest.mark.slow
 
-CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 CORNER_ORDER = 1.4
 FINENESS = np.array([0.5, 1.0, 1.5])  # over the config's mesh, in all three directions
 
 
-@pytest.fixture(scope="module")
-def frequencies():
-    blade = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"]
+@pytest.fixture
+def frequencies(paper_config):
+    blade = paper_config["blade"]
     shape = geometry.BladeShape.from_config(blade)
     material = Material.from_config(blade["material"])
     rows = []

@@ -1,23 +1,12 @@
 """The default blade lies in the window of the paper, and its reduced model is as accurate as the paper's."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-import yaml
 
-from bladerub.blade.build import build
 from bladerub.blade.frequencies import tip_lean
 from bladerub.extras.blades.similarity import contact_scale
 
 pytestmark = pytest.mark.slow
-
-CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
-
-
-@pytest.fixture(scope="module")
-def built():
-    return build(yaml.safe_load(CONFIG.read_text(encoding="utf-8")))
 
 
 def test_first_frequency_and_how_speed_stiffens_it(built):

@@ -5,11 +5,8 @@ plate of the blade's length, chord and thickness; its nodes, those in the middle
 put on the blade. The test needs the package `gmsh` from PyPI.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-import yaml
 
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.geometry import BladeShape
@@ -21,7 +18,6 @@ from bladerub.extras.blades.origin import Source
 
 gmsh = pytest.importorskip("gmsh", reason="Gmsh (pip install gmsh) is not installed", exc_type=ImportError)
 
-CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 PLATE = np.array([0.082, 0.008, 0.2])  # m
 
 
@@ -56,8 +52,8 @@ def first_frequencies(blade, material):
     return lowest_modes(equilibrium(solid, 0.0).stiffness, solid.mass, 8)[0]
 
 
-def test_eight_frequencies_are_those_of_hexahedra(tmp_path):
-    config = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"]
+def test_eight_frequencies_are_those_of_hexahedra(paper_config, tmp_path):
+    config = paper_config["blade"]
     shape, material = BladeShape.from_config(config), Material.from_config(config["material"])
     write_tetrahedra(tmp_path / "blade.msh", shape, 0.008)
     imported = import_blade(Source(tmp_path / "blade.msh", root_set="root", tip_set="tip"), {})

@@ -11,31 +11,21 @@ is 5 % above that of CalculiX.
 
 import shutil
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 
-from bladerub.blade.build import build
 from bladerub.blade.elasticity import Material
+from bladerub.config.read import load
 from bladerub.extras.export.calculix import deck
 from bladerub.extras.stress.nodal import NodalStress, running_displacement, von_mises
+from bladerub.io.folders import ROOT
 
 CCX = shutil.which("ccx")
-CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 SPEED = 0.4
 
 pytestmark = pytest.mark.skipif(CCX is None, reason="CalculiX (ccx) is not installed")
-
-
-STUDY = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
-MATERIAL = Material.from_config(STUDY["blade"]["material"])
-
-
-@pytest.fixture(scope="module")
-def built():
-    return build(STUDY)
+MATERIAL = Material.from_config(load(ROOT / "config" / "config.yaml")["blade"]["material"])
 
 
 def deck_of(mesh, omega):
