@@ -36,6 +36,12 @@ ROWS = [
     ("solver:\n  scheme: euler\n", 2, "solver.scheme", "exponential or central_differences"),
     ("analysis: {peaks: {speed_window: [1.2, 1.1]}}\n", 1, "analysis.peaks.speed_window[1]", "(1.2)", False),
     ("analysis:\n  divergence:\n    confidence: 95\n", 3, "analysis.divergence.confidence", "0.9999"),
+    ("reduction: {modes_per_speed: six}\n", 1, "reduction.modes_per_speed", "a whole number from 1"),
+    ("blade:\n  material:\n    density: 4.43\n", 3, "blade.material.density", 'write "4.43 g/cm3"'),
+    ("contact:\n  damping_ratio: 0,0023\n", 2, "contact.damping_ratio", "a number of at least 0"),
+    ("figures:\n  dpi: 2\nfigure: {dpi: 200}\n", 3, "figure", "did you mean figures?"),
+    ("solver: {revolutions: yes}\n", 1, "solver.revolutions", "a whole number from 1 to 10000"),
+    ("ensemble: {members: -8}\n", 1, "ensemble.members", "a whole number from 0 to 1000"),
     ("results: ../elsewhere\n", 1, "results", "a folder below"),
 ]
 BOTH = "coatings: [{casing: 2nd, E: [1], K: [2], theta: [0.0], friction: [0.1]}]\n"

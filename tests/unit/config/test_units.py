@@ -97,6 +97,14 @@ def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
 @pytest.mark.parametrize(
     ("setting", "words"),
     [
+        ("speeds: {start: 2000 mm}", "is a length; must be a speed: rpm, Hz, rad/s"),
+        ("speeds: {step: 200 rpm/s}", "is a rate of speed; must be a speed: rpm"),
+        ("reduction: {f_omega_max: 80 kHz}", 'unknown unit "kHz", did you mean Hz?; must be a speed'),
+        ("contact: {modulus_unit: 600 N}", "is a force; must be a pressure: MPa, GPa"),
+        ("contact: {elements: 2000 %}", "is a share; must be a whole number without a unit"),
+        ("casings: {2nd: {amplitude: 1 rad}}", "is an angle; must be a length: mm"),
+        ("coatings: [{casing: 2nd, E: [1], K: [3 J], theta: [0]}]", "is an energy; must be a pressure: MPa"),
+        ("figures: {nominal_speed: 11400 mph}", 'unknown unit "mph"; must be a speed: rpm, Hz, rad/s'),
         ("speeds: {start: 2000 rmp}", 'unknown unit "rmp", did you mean rpm?; must be a speed'),
         ("blade: {length: 200 rpm}", "is a speed; must be a length: mm, µm, cm, m, in, ft, or a number in m"),
         ("blade: {tip_cone: 12 mm}", "is a length; must be an angle: deg, rad, or a number in degrees"),
