@@ -84,7 +84,7 @@ def test_an_included_file_is_part_of_the_blade(tmp_path):
 
 
 def test_faces_of_gmsh_in_abaqus_files_are_node_sets(tmp_path):
-    # What Gmsh writes of a tetrahedron with two physical surfaces; the first block is in no set here.
+    # the first block is in no set here
     (tmp_path / "m.inp").write_text(
         "*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
         "*ELEMENT, type=T3D2\n1, 1, 2\n"

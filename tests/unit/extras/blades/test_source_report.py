@@ -69,14 +69,11 @@ def test_figures_are_those_of_the_matrices_and_wrong_units_get_a_warning(folder,
     assert wrong_units.endswith("are the matrices in mm-tonne, and the nodes in m?")
 
 
-def test_stiffness_of_a_tip_on_equal_springs(blade):
+def test_stiffness_of_a_tip_on_equal_springs_and_track_area_of_even_nodes(blade):
     # a force F over 8 nodes moves each by F / (8 k): the softest of the three directions counts
     springs = np.concatenate([np.tile([3e6, 2e6, 5e6], 8), np.full(len(blade.mass) - 24, 1e9)])
     on_springs = replace(blade, stiffness_0=np.diag(springs))
     assert tip_stiffness(on_springs) == pytest.approx(8 * 2e6)
-
-
-def test_track_area_of_even_nodes(blade):
     x = np.linspace(0, 0.07, 8)
     on_a_circle = replace(blade, node_position=np.column_stack([x, np.zeros(8), np.full(8, 0.5)]))
     # strips of a seventh of the chord, half of one at the edges

@@ -17,6 +17,7 @@ from bladerub.extras.blades.origin import Source
 from bladerub.extras.blades.section_profile import EDGE_SHARE
 from bladerub.io.errors import BadInput
 
+CM = Frame("cm")
 HUB, LENGTH, CHORD, THICKNESS = 0.45, 0.2, 0.08, 0.006
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
 
@@ -58,34 +59,6 @@ def cartesian(solid, n_sections=9, n_stations=21):
     return pd.concat(parts, ignore_index=True)
 
 
-def cylindrical(solid, n_sections=9, n_stations=41):
-    """Table of axial positions, radii and angles, the latter of the blade, along its rotation."""
-    parts = []
-    for number, zeta in enumerate(np.linspace(0, 1, n_sections)):
-        fine = np.linspace(0, 1, 5001)
-        corners = np.array(solid(np.array([0.0, 0.0, 1.0, 1.0]), np.array([0.0, 1.0, 0.0, 1.0]), zeta))[0]
-        first, last = np.argmin(corners[:2]), np.argmax(corners[2:])
-        axial = np.unique(np.concatenate([corners, np.linspace(corners.min(), corners.max(), n_stations)]))
-        part = pd.DataFrame({"section": f"s{number}", "z": axial, "r": HUB + LENGTH * zeta})
-        for side in (0, 1):
-            eta = np.concatenate([np.full(5001, side), [first], [last]])
-            x, _, phi = solid(np.concatenate([fine, [0.0, 1.0]]), eta, zeta)
-            order = np.argsort(x, kind="stable")
-            part[f"theta{side + 1}"] = np.interp(axial, x[order], phi[order])
-        parts.append(part)
-    return pd.concat(parts, ignore_index=True)
-
-
-def cylindrical_in_degrees(solid, **counts):
-    table = cylindrical(solid, **counts)
-    return table.assign(theta1=np.rad2deg(-table.theta1), theta2=np.rad2deg(-table.theta2))
-
-
-FORMS = pytest.mark.parametrize(
-    ("make", "angle_unit"), [(cartesian, None), (cylindrical_in_degrees, "deg")], ids=["points", "angles"]
-)
-
-
 @pytest.fixture
 def read(tmp_path):
     def blade(table, frame=None, counts=COUNTS, name="blade.csv", **source):
@@ -100,9 +73,8 @@ def frequencies(mesh, root):
     return lowest_modes(equilibrium(solid, 0.0).stiffness, solid.mass, 8)[0]
 
 
-@FORMS
-def test_a_twisted_plate_is_that_of_its_formula(read, make, angle_unit):
-    imported = read(make(twisted_plate), angle_unit=angle_unit)
+def test_a_twisted_plate_is_that_of_its_formula(read):
+    imported = read(cartesian(twisted_plate))
     direct, (_, _, zeta) = hexahedral_mesh(*lattice(COUNTS), in_space(twisted_plate))
     mesh = imported.blade.mesh
     assert imported.volume == pytest.approx(CHORD * THICKNESS * LENGTH, rel=1e-4)
@@ -113,9 +85,8 @@ def test_a_twisted_plate_is_that_of_its_formula(read, make, angle_unit):
     assert all(section.cut == (0, 0) for section in imported.sections)
 
 
-@FORMS
-def test_sharp_edges_are_cut_where_they_become_too_thin(read, make, angle_unit):
-    imported = read(make(lens), angle_unit=angle_unit)
+def test_sharp_edges_are_cut_where_they_become_too_thin(read):
+    imported = read(cartesian(lens))
     start = (1 - np.sqrt(1 - EDGE_SHARE)) / 2  # where 4 ξ (1 - ξ) is the share
     lost = 2 * (2 * start**2 - 4 / 3 * start**3)
     for section in imported.sections:
@@ -124,25 +95,8 @@ def test_sharp_edges_are_cut_where_they_become_too_thin(read, make, angle_unit):
     assert imported.volume == pytest.approx((2 / 3 - lost) * CHORD * THICKNESS * LENGTH, rel=2e-3)
 
 
-@pytest.mark.parametrize(
-    ("frame", "sign_of_z", "sign_of_theta"),
-    [
-        (Frame("inch", rotation="z", downstream="-z", radial="x"), -1, 1),
-        (Frame("inch", rotation="-z", downstream="z", radial="-y"), 1, -1),
-        (Frame("inch"), 1, -1),
-    ],
-)
-def test_angles_turn_by_the_right_hand_about_the_positive_axis(read, frame, sign_of_z, sign_of_theta):
-    table = cylindrical(twisted_plate)
-    angles = np.rad2deg(sign_of_theta * table[["theta1", "theta2"]])
-    given = table.assign(z=sign_of_z * table.z / 0.0254, r=table.r / 0.0254, **angles)
-    mesh = read(given, frame, angle_unit="deg").blade.mesh
-    ours = read(table.assign(theta1=-table.theta1, theta2=-table.theta2)).blade.mesh
-    np.testing.assert_allclose(mesh.mesh.points, ours.mesh.points, atol=1e-12)
-
-
 def test_a_blade_whose_flow_is_along_its_rotation_vector_has_its_leading_edge_there(read):
-    mesh = read(cylindrical(twisted_plate), Frame(rotation="x", downstream="x")).blade.mesh
+    mesh = read(cartesian(twisted_plate), Frame(rotation="x", downstream="x")).blade.mesh
     leading, trailing = mesh.mesh.points[mesh.interface[[0, -1]]]
     assert leading[0] > trailing[0]  # x of the blade's frame points against the rotation vector
 
@@ -213,9 +167,9 @@ SPACES = SPACES.replace(",   # the", ",  # the").replace(",\n", "\n").replace(",
 def table(tmp_path):
     """Read a text as a table of sections in cm."""
 
-    def sections(text, angle_unit="rad", name="blade.csv"):
+    def sections(text, angle_unit="rad", name="blade.csv", frame=CM):
         (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
-        return section_table.read(tmp_path / name, Frame("cm"), angle_unit)
+        return section_table.read(tmp_path / name, frame, angle_unit)
 
     return sections
 
@@ -229,6 +183,23 @@ def test_stations_are_read_with_their_lines(table):
     assert x == pytest.approx(0.02)
     assert np.hypot(y, z) == pytest.approx(0.405)
     assert np.arctan2(y, z) == pytest.approx(0.02)  # the blade turns about -x, angles about x
+
+
+@pytest.mark.parametrize(
+    ("frame", "sign_of_z", "sign_of_theta"),
+    [
+        (Frame("cm", rotation="z", downstream="-z", radial="x"), -1, 1),
+        (Frame("cm", rotation="-z", downstream="z", radial="-y"), 1, -1),
+    ],
+)
+def test_angles_turn_by_the_right_hand_about_the_positive_axis(table, frame, sign_of_z, sign_of_theta):
+    stations = np.array([(z, 40.0 + z, 0.01 * z, 0.03 * z) for z in range(5)] * 2)
+    turned = stations * [sign_of_z, 1, *2 * [np.rad2deg(-sign_of_theta)]]
+    found = []
+    for of, unit, own in ((stations, "rad", CM), (turned, "deg", frame)):
+        rows = [f"{name},{','.join(map(str, row))}\n" for name, row in zip("aaaaabbbbb", of, strict=True)]
+        found.append(table("section,z,r,theta1,theta2\n" + "".join(rows), unit, frame=own)[0].points)
+    np.testing.assert_allclose(*found, atol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["blade.txt", "BLADE.DAT"])
