@@ -34,7 +34,9 @@ def made(study, blade, simulated, monkeypatch, tmp_path):
     return make
 
 
-def test_a_small_study_has_all_runs_and_judges_the_claims_asked_for(made, simulated, growing, repeated):
+def test_a_small_study_has_all_runs_judges_the_claims_asked_for_and_is_the_same_without_a_folder(
+    made, simulated, growing, repeated, study, tmp_path
+):
     growing[0.19] = 0.05
     found = made({"C1"})
     assert (simulated, repeated, found.n_runs) == ([0.1, 0.19, 0.2, 0.3], [0.19], 5)
@@ -43,10 +45,6 @@ def test_a_small_study_has_all_runs_and_judges_the_claims_asked_for(made, simula
     simulated.clear()
     assert made({"C2"}).findings.empty
     assert simulated == []
-
-
-def test_without_a_folder_it_is_the_same_and_nothing_is_written(made, study, growing, simulated, tmp_path):
-    growing[0.19] = 0.05
     kept = made()
     files = sorted(tmp_path.rglob("*"))
     passing = made(folder=None)
@@ -107,7 +105,7 @@ def built(blade):
     return SimpleNamespace(reduced=blade, accuracy=accuracy, static_displacement=moved)
 
 
-def test_the_figures_of_a_blade_are_those_of_its_model(built):
+def test_the_figures_of_a_blade_are_those_of_its_model_and_its_compliance_that_of_springs(built, blade):
     table = blade_comparison.blades({"this": built, "reference": built})
     figures = table[table.blade == "this"].set_index("number").value
     f1, f2 = reduced_frequencies(built.reduced, 0.0, 2)
@@ -116,9 +114,6 @@ def test_the_figures_of_a_blade_are_those_of_its_model(built):
     expected["centrifugal_displacement"] = 1e-4
     assert figures[list(expected)].to_dict() == pytest.approx(expected)
     assert (table.value[table.blade == "reference"].to_numpy() == figures.to_numpy()).all()
-
-
-def test_the_compliance_is_that_of_springs_under_their_shares_of_the_force(blade):
     springs = np.diag(np.repeat(np.arange(1.0, 9.0), 3)) * 1e6  # the same in all directions of a node
     expected = np.mean(1 / (8 * np.arange(1.0, 9.0) * 1e6))
     measured = blade_comparison.radial_compliance(replace(blade, stiffness_0=springs))

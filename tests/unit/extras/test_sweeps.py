@@ -95,31 +95,18 @@ def test_runs_that_grow_to_the_end_and_peaks_are_chosen(config, make_map):
     assert long_runs.chosen(config, coating) == {0.05: "grows", 0.2: "f6", 0.3: "f4"}
 
 
-def amplitudes():
+def test_what_is_said_after_more_and_more_revolutions(config):
     number = np.arange(200.0)
     ended, free = 1e-4 * 1.05**number, 1e-4 * 1.05**number
     free[70:] = free[69] * 0.9 ** np.arange(1, 131)
     ended[70:] = np.nan
-    return {
-        "steady": np.full(200, 1e-4),
-        "saturating": 1e-4 * (2 - np.exp(-number / 30)),
-        "divergent": 1e-4 * 1.02**number,
-        "unbounded": ended,
-        "free": free,
-    }
-
-
-@pytest.mark.parametrize(
-    ("name", "verdicts"),
-    [
-        ("steady", ["steady"] * 4),
-        ("saturating", ["divergent", "saturating", "saturating", "saturating"]),
-        ("divergent", ["divergent"] * 4),
-        ("unbounded", ["divergent", "divergent", "unbounded", "unbounded"]),
-        ("free", ["divergent", "divergent", "saturating", "free"]),
-    ],
-)
-def test_what_is_said_after_more_and_more_revolutions(config, name, verdicts):
-    amplitude = amplitudes()[name]
-    said = [long_runs.verdict_after(config, amplitude, stop)[0] for stop in (20, 60, 100, 200)]
-    assert said == verdicts
+    saturating = 1e-4 * (2 - np.exp(-number / 30))
+    for amplitude, verdicts in (
+        (np.full(200, 1e-4), ["steady"] * 4),
+        (saturating, ["divergent", "saturating", "saturating", "saturating"]),
+        (1e-4 * 1.02**number, ["divergent"] * 4),
+        (ended, ["divergent", "divergent", "unbounded", "unbounded"]),
+        (free, ["divergent", "divergent", "saturating", "free"]),
+    ):
+        said = [long_runs.verdict_after(config, amplitude, stop)[0] for stop in (20, 60, 100, 200)]
+        assert said == verdicts

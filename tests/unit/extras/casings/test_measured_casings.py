@@ -32,12 +32,11 @@ def test_the_gap_of_a_table_is_that_of_the_casing(table):
     assert excites(table(ROWS), 6) > excites(table(ROWS), 4)
 
 
-@pytest.mark.parametrize("separator", [";", "\t", " "])
-def test_a_table_may_turn_elsewhere_and_be_closed(table, separator):
+def test_a_table_may_turn_elsewhere_and_be_closed(table):
     there = casing_spec("own", table(ROWS))
     cells = [row.split(",") for row in ROWS]
     turned = [*cells[30:], *([str(360 + int(angle)), of_gap] for angle, of_gap in cells[:31])]
-    entry = table([separator.join(row) for row in turned], f"Angle{separator}GAP")
+    entry = table([";".join(row) for row in turned], "Angle;GAP")
     np.testing.assert_allclose(casing_spec("own", entry).measured, there.measured, atol=1e-12)
 
 

@@ -57,7 +57,7 @@ def test_a_column_computes_what_is_not_there(few_speeds, build, tmp_path):
     assert build([5]) == [5]
 
 
-def test_a_change_of_mind_costs_no_point(build, tmp_path):
+def test_a_change_of_mind_costs_no_point_and_no_table_is_made_of_a_damaged_one(build, tmp_path):
     manifest = tmp_path / MANIFEST
     build([0.5, 5])
     contents = {path.name: path.read_bytes() for path in (tmp_path / "cells").glob("*.h5")}
@@ -67,11 +67,6 @@ def test_a_change_of_mind_costs_no_point(build, tmp_path):
     assert read_manifest(manifest, PointRow) == rows
     assert {path.name: path.read_bytes() for path in (tmp_path / "cells").glob("*.h5")} == contents
     assert len(list((tmp_path / "cells" / ARCHIVE).iterdir())) == 2
-
-
-def test_no_table_is_made_of_a_damaged_point(build, tmp_path):
-    manifest = tmp_path / MANIFEST
-    build([0.5, 5])
     assert [point.case.K for point in read_points([manifest])] == [0.5, 5]
     path = tmp_path / "cells" / "2nd_E2_K5_theta0.h5"
     content = bytearray(path.read_bytes())
@@ -100,9 +95,6 @@ class TestDeterminants:
             (("chart", "speeds", "dense_stop"), 0.32),
             (("speeds", "extra"), [0.197]),
             (("solver", "revolutions"), 21),
-            (("contact", "damping_ratio"), 2e-3),
-            (("casings", "2nd", "start_angle"), 12.0),
-            (("blade", "length"), 0.21),
         ],
     )
     def test_a_setting_that_shapes_the_point_changes_them(self, few_speeds, digest, keys, value):

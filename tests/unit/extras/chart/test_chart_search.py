@@ -121,14 +121,11 @@ def looked_at(curve, step, share):
     return known
 
 
-def test_a_smooth_maximum_is_enclosed_by_its_neighbours():
+def test_a_smooth_maximum_is_enclosed_and_a_lower_one_looked_at_only_from_the_share_on():
     curve = -np.abs(np.arange(65) - 21.0) + 100
     known = looked_at(curve, 8, share=1.0)
     assert known[20:23].all()
     assert known.sum() <= 9 + 7
-
-
-def test_a_lower_maximum_is_looked_at_only_from_the_share_on():
     place = np.arange(65)
     hidden = 50 + 60.0 * (place == 47) + 20 * np.clip(1 - np.abs(place - 48) / 4, 0, None)  # 70 at its sample
     curve = np.where(place > 40, hidden, 100 - 2 * np.abs(place - 16.0))
@@ -167,32 +164,18 @@ def test_a_larger_budget_adds_to_a_smaller_one(within):
 def test_the_whole_chart_comes_first_at_half_of_the_speeds(config, within):
     whole = plan(config)
     assert (whole.multiple, len(whole.E), len(whole.K)) == (1, 24, 24)
+    assert in_words(config).startswith("chart: 1,152 of 1,152 coatings; about ")
     minutes = expected_minutes(config, whole)
     assert within(minutes + 0.1) == whole
     half = chart_speeds(config)
     assert within(minutes - 0.1) == whole._replace(multiple=2)
+    assert "at speeds 2 times as far apart" in in_words(config)
     fewer = chart_speeds(config)
     assert set(fewer.f_omega[fewer.coarse]) < set(half.f_omega[half.coarse])
     assert within(minutes / 8 - 1, cores=16) == whole._replace(multiple=2)
 
 
-def test_what_is_planned_is_said(config, within):
-    assert in_words(config).startswith("chart: 1,152 of 1,152 coatings; about ")
-    chosen = within(10)
-    coatings, minutes = 2 * len(chosen.E) * len(chosen.K), expected_minutes(config, chosen)
-    assert in_words(config).startswith(
-        f"chart: {coatings} of 1,152 coatings, at speeds 2 times as far apart; about {minutes:.1f} min on 2"
-    )
-
-
-def test_a_column_is_all_K_at_one_E_and_theta(config):
-    config["chart"] |= {"E": [0.11, 2], "K": [0.5, 5], "theta": [0.15]}
-    found = columns(config)
-    assert list(found) == ["2nd_E0.11_theta0.15", "2nd_E2_theta0.15"]
-    assert [(case.E, case.K) for case in found["2nd_E2_theta0.15"]] == [(2, 0.5), (2, 5)]
-
-
-def test_a_chart_has_speeds_of_the_study_and_crossings_of_its_orders(config):
+def test_a_chart_has_speeds_of_the_study_and_crossings_of_its_orders_and_columns_of_all_K(config):
     config["casings"]["2nd"]["peak_orders"] = [4, 6]
     check(config)
     config["speeds"]["stop"] = 0.24
@@ -201,3 +184,7 @@ def test_a_chart_has_speeds_of_the_study_and_crossings_of_its_orders(config):
     config["speeds"]["stop"] = config["chart"]["speeds"]["start"] = 0.3
     with pytest.raises(BadInput, match=r"chart.speeds.start = 0.3: must be below speeds.stop = 0.3"):
         check(config)
+    config["chart"] |= {"E": [0.11, 2], "K": [0.5, 5], "theta": [0.15]}
+    found = columns(config)
+    assert list(found) == ["2nd_E0.11_theta0.15", "2nd_E2_theta0.15"]
+    assert [(case.E, case.K) for case in found["2nd_E2_theta0.15"]] == [(2, 0.5), (2, 5)]

@@ -22,7 +22,14 @@ def chart(make_point):
     return [make_point(e, k, e * heights[k], f4=0.322 if e == 2 else 0.32, depth=1e-4 * k) for e, k in values]
 
 
-def test_a_point_comes_back_from_its_file(tmp_path, config, make_point):
+def test_a_row_sums_up_a_cell_which_comes_back_from_its_file(config, make_point, tmp_path):
+    point = make_point(2.0, 1.0, Y4=3e-3, f4=0.33, divergent=1.0)
+    point.measures["divergent"][0] = 0.0
+    found = table.table(config, [point]).iloc[0]
+    assert (found.Y4, found.f4, found.Y6, found.f6) == (3e-3, 0.33, 5e-4, 0.19)
+    assert (found.peak, found.f_at_peak, found.deepest_wear) == (3e-3, 0.33, 1e-4)
+    assert found.divergent_share == pytest.approx(31 / 32)
+    assert {entry(name) for name in found.index} <= described_columns(*plugins.files("columns.csv")).keys()
     point, path = make_point(1.0, 2.0), tmp_path / "point.h5"
     point.measures["peak"][3] = np.nan
     write(path, point, "key", "runs", config)
@@ -33,16 +40,6 @@ def test_a_point_comes_back_from_its_file(tmp_path, config, make_point):
     for name, values in point.measures.items():
         np.testing.assert_array_equal(again.measures[name], values)
     assert again.known.sum() == point.f_omega.size - 1
-
-
-def test_a_row_sums_up_a_cell(config, make_point):
-    point = make_point(2.0, 1.0, Y4=3e-3, f4=0.33, divergent=1.0)
-    point.measures["divergent"][0] = 0.0
-    found = table.table(config, [point]).iloc[0]
-    assert (found.Y4, found.f4, found.Y6, found.f6) == (3e-3, 0.33, 5e-4, 0.19)
-    assert (found.peak, found.f_at_peak, found.deepest_wear) == (3e-3, 0.33, 1e-4)
-    assert found.divergent_share == pytest.approx(31 / 32)
-    assert {entry(name) for name in found.index} <= described_columns(*plugins.files("columns.csv")).keys()
 
 
 def test_a_chart_without_any_peak_has_tables(config, chart):
@@ -60,7 +57,7 @@ def test_a_chart_without_any_peak_has_tables(config, chart):
     assert np.isnan([alone.lowest_neighbour, alone.highest_neighbour]).all()
 
 
-def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K(config, chart):
+def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K_and_its_explanation_counts_cycles(config, chart):
     ridges = ridge.table(config, chart)
     finest = ridges[(ridges.order == 4) & (ridges.speed_step == 0.002)]
     along = finest[finest.along == "E"].set_index("E")
@@ -76,9 +73,6 @@ def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K(config, chart):
     assert (of_order.K_shift == 1).all()
     assert (of_order.height_lost == 0).all()  # the median: two ridge points of three lie on even speeds
     assert set(found.columns) <= described_columns(*plugins.files("columns.csv")).keys()
-
-
-def test_the_explanation_counts_cycles(config, chart):
     found = explanation.table(config, chart).set_index(["E", "K", "order"])
     assert found.wear_per_cycle[1.0, 1.0, 4] == pytest.approx(240 / (20 * 4))
     assert found.wear_per_cycle[1.0, 1.0, 6] == pytest.approx(240 / (20 * 6))
@@ -104,16 +98,15 @@ def peaks():
     return found
 
 
-def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_it(peaks, leaning):
+def test_a_speed_that_follows_the_modulus_does_not_scatter_about_it_and_inclined_bars_need_more_modulus(
+    peaks, leaning
+):
     found = stiffening.table(peaks, leaning)
     of_four = found.set_index("order").loc[4]
     assert of_four.rank_correlation_E_T == pytest.approx(1)
     assert of_four.scatter_E_T == pytest.approx(0, abs=1e-12)
     assert max(of_four.rank_correlation_K, of_four.rank_correlation_E) < 0.95
     assert set(found.columns) <= described_columns(*plugins.files("columns.csv")).keys()
-
-
-def test_inclined_bars_need_so_much_more_modulus_at_the_same_speed(peaks, leaning):
     peaks["f_peak"] = 0.3 + 0.01 * peaks.E_T
     inclined = peaks.assign(theta=0.15, E_T=3.5 * peaks.E_T)  # the same f_k
     inclined.loc[inclined.f_peak > 0.315, "f_peak"] = 0.4  # beyond what is small

@@ -63,68 +63,43 @@ def test_starts_lie_on_both_sides_and_are_those_of_their_run_and_seed_alone():
     assert len({tuple(ensemble.starts(*of, 4)) for of in of_each}) == 8
 
 
-class TestChosen:
-    def test_peaks_with_their_neighbours_in_speed_and_runs_whose_displacement_is_kept(self, study, coating):
-        np.testing.assert_array_equal(chosen(study, coating), [0.15, 0.2, 0.25, 0.3, 0.35])
-        study["analysis"]["histories"] = [{"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.1}]
-        assert 0.1 in chosen(study, coating)
-        study["analysis"]["histories"][0]["theta"] = 0.15
-        assert 0.1 not in chosen(study, coating)
-
-    def test_without_a_peak_where_the_order_meets_c1(self, study, make_map):
-        unbounded = make_map(CASE, {})
-        unbounded.spectrum_amplitude[(unbounded.f_omega > 0.1) & (unbounded.f_omega < 0.25)] = np.nan
-        settings = study["analysis"]["peaks"]
-        for coating, order, nearest in (
-            (make_map(CASE, {}, [0.05, 0.1, 0.3]), 6, 0.1),
-            (unbounded, 6, 0.17),
-            (make_map(CASE, {}), 2, 0.4),
-        ):
-            assert coating.f_omega[nearest_speed(coating, order, settings)] == nearest
+def test_peaks_with_their_neighbours_and_runs_whose_displacement_is_kept_are_chosen(study, coating, make_map):
+    np.testing.assert_array_equal(chosen(study, coating), [0.15, 0.2, 0.25, 0.3, 0.35])
+    study["analysis"]["histories"] = [{"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.1}]
+    assert 0.1 in chosen(study, coating)
+    study["analysis"]["histories"][0]["theta"] = 0.15
+    assert 0.1 not in chosen(study, coating)
+    unbounded = make_map(CASE, {})
+    unbounded.spectrum_amplitude[(unbounded.f_omega > 0.1) & (unbounded.f_omega < 0.25)] = np.nan
+    settings = study["analysis"]["peaks"]
+    without_a_peak = [(make_map(CASE, {}, [0.05, 0.1, 0.3]), 6, 0.1), (unbounded, 6, 0.17)]
+    for each, order, nearest in [*without_a_peak, (make_map(CASE, {}), 2, 0.4)]:  # where it meets C1
+        assert each.f_omega[nearest_speed(each, order, settings)] == nearest
 
 
-class TestMake:
-    def test_a_member_is_the_study_s_run_from_another_start_and_each_is_repeated_finer(self, made, study):
-        made()
-        spec = made.specs[0]
-        assert spec == replace(run_spec(study, CASE, 0.15), initial_displacement=spec.initial_displacement)
-        runs = [spec for spec in made.specs if spec.revolutions == 20]
-        drawn = [spec.initial_displacement for spec in runs if spec.tolerance == 0.01]
-        assert np.abs(drawn).min() > 0
-        assert len(set(drawn)) == 10
-        finer = [spec for spec in made.specs if spec.tolerance != 0.01]
-        assert [spec.f_omega for spec in finer] == [0.15, 0.2, 0.25, 0.3, 0.35]
-        assert finer[0] == replace(run_spec(study, CASE, 0.15), tolerance=0.0025)
-        heights = ensemble.read(made.path).refined.spectrum_amplitude[:, 60]
-        np.testing.assert_allclose(heights, 1e-3, rtol=1e-3)
-
-    def test_nothing_is_computed_twice_and_more_members_are_added(self, made, study):
-        made()
-        before = len(made.specs)
-        made()
-        assert len(made.specs) == before
-        study["ensemble"]["members"] = 3
-        (made.runs / "0.2500_2.h5").unlink()
-        made()
-        later = [spec.f_omega for spec in made.specs[before:] if spec.revolutions == 20]
-        assert later == [0.25, 0.15, 0.2, 0.25, 0.3, 0.35]
-
-    def test_what_is_written_is_read_again(self, made, study):
-        made()
-        read = ensemble.read(made.path)
-        starts = [ensemble.starts(study["ensemble"], CASE, f, 2) for f in (0.15, 0.2, 0.25, 0.3, 0.35)]
-        np.testing.assert_array_equal(read.start, np.transpose(starts))
-        assert [member.case for member in read.members] == [CASE, CASE]
-        np.testing.assert_allclose(read.members[1].f_omega, [0.15, 0.2, 0.25, 0.3, 0.35])
-        steady = [0, 2, 3, 4]
-        heights = read.members[1].spectrum_amplitude[steady, 60]
-        np.testing.assert_allclose(heights, 1e-3 + 1e3 * read.start[1, steady], rtol=1e-3)
-
-
-def test_a_draw_has_the_runs_of_one_member_and_the_study_s_elsewhere(made, coating):
+def test_members_are_the_study_s_run_from_other_starts_each_is_repeated_finer_and_read_again(
+    made, study, coating
+):
     made()
+    spec = made.specs[0]
+    assert spec == replace(run_spec(study, CASE, 0.15), initial_displacement=spec.initial_displacement)
+    runs = [spec for spec in made.specs if spec.revolutions == 20]
+    drawn = [spec.initial_displacement for spec in runs if spec.tolerance == 0.01]
+    assert np.abs(drawn).min() > 0
+    assert len(set(drawn)) == 10
+    finer = [spec for spec in made.specs if spec.tolerance != 0.01]
+    assert [spec.f_omega for spec in finer] == [0.15, 0.2, 0.25, 0.3, 0.35]
+    assert finer[0] == replace(run_spec(study, CASE, 0.15), tolerance=0.0025)
     read = ensemble.read(made.path)
-    drawn = read.draw(coating, read.members[1])
+    np.testing.assert_allclose(read.refined.spectrum_amplitude[:, 60], 1e-3, rtol=1e-3)
+    starts = [ensemble.starts(study["ensemble"], CASE, f, 2) for f in (0.15, 0.2, 0.25, 0.3, 0.35)]
+    np.testing.assert_array_equal(read.start, np.transpose(starts))
+    assert [member.case for member in read.members] == [CASE, CASE]
+    np.testing.assert_allclose(read.members[1].f_omega, [0.15, 0.2, 0.25, 0.3, 0.35])
+    steady = [0, 2, 3, 4]
+    heights = read.members[1].spectrum_amplitude[steady, 60]
+    np.testing.assert_allclose(heights, 1e-3 + 1e3 * read.start[1, steady], rtol=1e-3)
+    drawn = read.draw(coating, read.members[1])  # the runs of one member, those of the study elsewhere
     at = np.isin(coating.f_omega, read.members[1].f_omega)
     for name in ("spectrum_amplitude", "wear", "lobes", "status", "max_wear", "revolution_amplitude"):
         np.testing.assert_array_equal(getattr(drawn, name)[at], getattr(read.members[1], name))
@@ -132,6 +107,18 @@ def test_a_draw_has_the_runs_of_one_member_and_the_study_s_elsewhere(made, coati
     assert drawn.confirmation_amplitude.shape[0] == coating.f_omega.size
     assert np.isnan(drawn.confirmation_amplitude[~at]).all()
     np.testing.assert_array_equal(drawn.f_omega, coating.f_omega)
+
+
+def test_nothing_is_computed_twice_and_more_members_are_added(made, study):
+    made()
+    before = len(made.specs)
+    made()
+    assert len(made.specs) == before
+    study["ensemble"]["members"] = 3
+    (made.runs / "0.2500_2.h5").unlink()
+    made()
+    later = [spec.f_omega for spec in made.specs[before:] if spec.revolutions == 20]
+    assert later == [0.25, 0.15, 0.2, 0.25, 0.3, 0.35]
 
 
 def test_each_peak_has_three_speeds_and_each_history_its_own(config):

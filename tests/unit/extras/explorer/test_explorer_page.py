@@ -48,7 +48,7 @@ def runs(coating):
     return [ManifestRow(f"{f:.4f}.h5", f, f"key-{f}", status, 1) for f, status in by_speed]
 
 
-def test_figures_are_those_of_the_tables(coating, verdicts, runs):
+def test_figures_are_those_of_the_tables_and_come_back_from_the_page(coating, verdicts, runs):
     found = figures.of_runs(coating, verdicts, runs[::-1], spectrum_revolutions=10)
     assert found["growth_per_revolution"] == verdicts["growth_per_revolution"].tolist()
     assert found["divergent"] == verdicts["divergent"].tolist() == [False, True, True]
@@ -60,6 +60,27 @@ def test_figures_are_those_of_the_tables(coating, verdicts, runs):
     assert found["order"][0] == coating.spectrum_order[strongest]
     assert found["order_amplitude"][0] == 1e3 * coating.spectrum_amplitude[0, strongest]
     assert math.isnan(found["order_amplitude"][2])
+    packed = parts(coating, verdicts, runs, 10, max_frequency=2.5)
+    data = {name: gzip.decompress(base64.b64decode(text)) for name, text in packed.items()}
+    numbers = json.loads(data["figures"])
+
+    steps = np.cumsum(np.frombuffer(data["wear"], np.uint8).reshape(3, -1), axis=1, dtype=np.uint8)
+    deepest = np.array(numbers["deepest"])[:, None]
+    assert (np.abs(steps / 255 * deepest - 1e3 * coating.wear) <= deepest / 509).all()
+
+    low, high = numbers["spectrum_range"]
+    codes = np.frombuffer(data["spectrum"], np.uint8)[:252]  # to order 25 at the first speed, and a cell
+    amplitude = low * (high / low) ** ((codes - 1.0) / 254)
+    shown = 1e3 * np.maximum(coating.spectrum_amplitude[0, :252], AMPLITUDE_FLOOR)
+    np.testing.assert_allclose(amplitude, shown, rtol=0.03)
+    assert not np.frombuffer(data["spectrum"], np.uint8)[-132:].any()  # the last run has no spectrum
+
+    low, high = numbers["growth_range"]
+    codes = np.frombuffer(data["growth"], "<u2").reshape(3, 50)
+    amplitude = np.where(codes, low * (high / low) ** ((codes - 1.0) / 65534), np.nan)
+    np.testing.assert_allclose(amplitude[:, :20], 1e3 * coating.revolution_amplitude, rtol=1e-3)
+    np.testing.assert_allclose(amplitude[:, 20:], 1e3 * coating.confirmation_amplitude, rtol=1e-3)
+    assert numbers["runs"]["growth_per_revolution"] == verdicts["growth_per_revolution"].tolist()
 
 
 def test_the_command_that_repeats_a_run():
@@ -94,31 +115,9 @@ def scripts(page, kind):
     return re.findall(rf'<script type="{kind}"[^>]*>(.*?)</script>', page, re.DOTALL)
 
 
-def test_what_is_packed_comes_back(coating, verdicts, runs):
-    packed = parts(coating, verdicts, runs, 10, max_frequency=2.5)
-    data = {name: gzip.decompress(base64.b64decode(text)) for name, text in packed.items()}
-    numbers = json.loads(data["figures"])
-
-    steps = np.cumsum(np.frombuffer(data["wear"], np.uint8).reshape(3, -1), axis=1, dtype=np.uint8)
-    deepest = np.array(numbers["deepest"])[:, None]
-    assert (np.abs(steps / 255 * deepest - 1e3 * coating.wear) <= deepest / 509).all()
-
-    low, high = numbers["spectrum_range"]
-    codes = np.frombuffer(data["spectrum"], np.uint8)[:252]  # to order 25 at the first speed, and a cell
-    amplitude = low * (high / low) ** ((codes - 1.0) / 254)
-    shown = 1e3 * np.maximum(coating.spectrum_amplitude[0, :252], AMPLITUDE_FLOOR)
-    np.testing.assert_allclose(amplitude, shown, rtol=0.03)
-    assert not np.frombuffer(data["spectrum"], np.uint8)[-132:].any()  # the last run has no spectrum
-
-    low, high = numbers["growth_range"]
-    codes = np.frombuffer(data["growth"], "<u2").reshape(3, 50)
-    amplitude = np.where(codes, low * (high / low) ** ((codes - 1.0) / 65534), np.nan)
-    np.testing.assert_allclose(amplitude[:, :20], 1e3 * coating.revolution_amplitude, rtol=1e-3)
-    np.testing.assert_allclose(amplitude[:, 20:], 1e3 * coating.confirmation_amplitude, rtol=1e-3)
-    assert numbers["runs"]["growth_per_revolution"] == verdicts["growth_per_revolution"].tolist()
-
-
-def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
+def test_the_page_holds_every_coating_runs_only_its_own_scripts_and_a_hostile_name_adds_no_markup(
+    page, coating
+):
     other = dataclasses.replace(coating, case=CoatingCase.rigid("2nd", 0.0))
     text = page(coating, other)
     (study,) = scripts(text, "application/json")
@@ -130,9 +129,6 @@ def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
     assert len(scripts(text, "application/gzip")) == 8
     assert re.findall(r"<(?:script|link|img|iframe)[^>]*\b(?:src|href)=", text) == []
     assert text == page(coating, other)
-
-
-def test_the_policy_lets_only_its_own_scripts_run_and_a_hostile_name_adds_no_markup(page, coating):
     text = page(coating)
     (policy,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', text)
     programs = re.findall(r"<script>(.*?)</script>", text, re.DOTALL) + scripts(text, "module")

@@ -53,13 +53,10 @@ MATERIAL = Material(110e9, 0.32, 4430.0)
 POINTS = np.arange(60.0).reshape(20, 3)
 
 
-def test_a_deck_of_a_rotating_blade_has_its_load_first():
+def test_a_deck_of_a_rotating_blade_has_its_load_first_and_the_frequencies_of_calculix_are_read(tmp_path):
     text = deck(POINTS, np.arange(20)[None], np.array([0]), MATERIAL, 30.0)
     assert "BLADE, CENTRIF, 9.000000000000e+02, 0., 0., 0., 1., 0., 0." in text
     assert text.index("*STEP, NLGEOM") < text.index("*STEP, PERTURBATION") < text.index("*FREQUENCY")
-
-
-def test_frequencies_are_read_from_the_table_of_calculix(tmp_path):
     (tmp_path / "blade.dat").write_text(
         "\n     E I G E N V A L U E   O U T P U T\n\n MODE NO    EIGENVALUE                       FREQUENCY\n"
         "                                     REAL PART            IMAGINARY PART\n"

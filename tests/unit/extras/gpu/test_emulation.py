@@ -13,7 +13,7 @@ from bladerub.contact.spec import ElementLaw
 from bladerub.extras.gpu import device, emulation
 from bladerub.extras.gpu.many import simulate_many
 
-pytestmark = pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
+needs_compiler = pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 TOLERANCE = 1e-9  # over the largest number: what both round off (`test_gpu_rounding`)
 TOLERANCE_WHERE_IT_GROWS = {"stiff": 1e-7, "more_revolutions": 1e-7}
 CASES = {
@@ -45,6 +45,7 @@ def assert_equal(found, expected, tolerance=TOLERANCE):
     assert asdict(found.energy) == pytest.approx(given, abs=tolerance * max(map(abs, given.values())))
 
 
+@needs_compiler
 @pytest.mark.nightly
 @pytest.mark.parametrize("case", CASES)
 def test_the_loop_of_the_gpu_makes_the_steps_of_the_processors(case, blade, spec, change):
@@ -53,6 +54,7 @@ def test_the_loop_of_the_gpu_makes_the_steps_of_the_processors(case, blade, spec
     assert_equal(found, expected, TOLERANCE_WHERE_IT_GROWS.get(case, TOLERANCE))
 
 
+@needs_compiler
 @pytest.mark.nightly
 def test_a_profile_that_turns(blade, spec, change):
     slope = np.random.default_rng(3).normal(scale=3.0, size=(8, len(blade.mass)))
@@ -63,20 +65,21 @@ def test_a_profile_that_turns(blade, spec, change):
         assert_equal(found, expected)
 
 
-def test_runs_beside_each_other_are_those_alone(blade, spec, change):
-    specs = [change(spec, f_omega=0.2, E=0.5), change(spec, E=2.0), change(spec, revolutions=3)]
-    together = dict(simulate_many(blade, specs, emulation.run))
-    for number, each in enumerate(specs):
-        ((_, alone),) = simulate_many(blade, [each], emulation.run)
-        np.testing.assert_array_equal(together[number].wear, alone.wear)
-        np.testing.assert_array_equal(together[number].radial_displacement, alone.radial_displacement)
-        assert together[number].energy == alone.energy
-
-
-def test_the_ledger_is_closed(blade, spec, change):
-    specs = [change(spec, theta=theta, revolutions=3) for theta in (0.0, 0.1)]
-    for found, expected in pairs(blade, specs):
+@needs_compiler
+def test_runs_beside_each_other_are_those_alone_and_of_the_processor_and_close_their_ledgers(
+    blade, spec, change
+):
+    specs = [
+        change(spec, f_omega=0.2, E=0.5),
+        change(spec, theta=0.0, revolutions=3),
+        change(spec, revolutions=3),
+    ]
+    for each, (found, expected) in zip(specs, pairs(blade, specs), strict=True):
         assert_equal(found, expected, TOLERANCE_WHERE_IT_GROWS["more_revolutions"])
+        ((_, alone),) = simulate_many(blade, [each], emulation.run)
+        np.testing.assert_array_equal(found.wear, alone.wear)
+        np.testing.assert_array_equal(found.radial_displacement, alone.radial_displacement)
+        assert found.energy == alone.energy
         assert found.energy.exchanged > 0
         assert found.energy.residual < 1e-3
 
@@ -123,7 +126,7 @@ def cupy(monkeypatch):
     return module
 
 
-@pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
+@needs_compiler
 def test_runs_of_several_sizes_share_a_kernel(cupy, blade, spec, change):
     sizes = [{"revolutions": 2}, {"n_elements": 150}, {"displacement_limit": 4e-4, "revolutions": 6}]
     sizes += [{"half_width": 2.6}]

@@ -35,7 +35,9 @@ def test_what_the_loop_can_not_do_is_said(values, reason, blade, spec, change):
     assert bool(told) == bool(values)
 
 
-def test_the_window_of_elements_is_wide_enough(blade, spec, change):
+def test_the_window_of_elements_is_wide_enough_and_runs_of_other_sizes_have_the_same_program(
+    blade, spec, change
+):
     for half_width in (1.0, 2.0, 2.5, 3.0, 6.0):
         changed = change(spec, half_width=half_width)
         rows = 4 * variant_of(changed, set_up(blade, changed)[1]).rows
@@ -43,8 +45,6 @@ def test_the_window_of_elements_is_wide_enough(blade, spec, change):
         assert math.floor(2 * half_width + farthest) + 2 <= rows  # at the worst place
         assert farthest >= 0.5
 
-
-def test_runs_of_other_profiles_and_sizes_have_the_same_program(blade, spec, change):
     def source_for(**changes):
         changed = change(spec, **changes)
         return batch.source(variant_of(changed, set_up(blade, changed)[1]))

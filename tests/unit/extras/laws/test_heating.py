@@ -53,16 +53,13 @@ def test_without_conduction_all_heat_stays_in_the_heated_depth_and_cells_are_in_
     np.testing.assert_array_equal(state.strength[8], 1.0)
 
 
-def test_rows_wrap_around_and_others_wait():
+def test_rows_wrap_around_and_others_wait_and_two_shorter_rests_are_one():
     own, state = layer(), heated(flow=0.01)
     own.rest(state, -8, -7)  # row 4
     assert not state.taken[4].any()
     assert state.taken[[3, 5], :8].all()
     assert (state.strength[4] < 1).all()
     assert (state.strength[[3, 5]] == 1).all()
-
-
-def test_two_shorter_rests_are_one():
     once, twice = heated(flow=0.01), heated(flow=0.01)
     own = layer()
     own.rest(once, 0, N, 0.7)

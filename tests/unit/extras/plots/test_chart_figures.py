@@ -41,6 +41,8 @@ def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):
     peaks = peaks.assign(wear_per_cycle=1e3 * peaks.amplitude, lobes=4)
     _, energy, *_ = draws(chart_explanation(peaks, 6e8)).axes
     np.testing.assert_allclose(energy.lines[1].get_xdata(), [1.11, 1.5, 2.1])
+    without = dict.fromkeys(("amplitude", "wear_per_cycle", "lobes"), np.nan)
+    draws(chart_explanation(peaks.assign(**without), 6e8))
 
 
 def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, blade, draws):
@@ -51,12 +53,7 @@ def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, blade, draws
     found, other, *_ = axes.lines
     np.testing.assert_allclose(found.get_ydata(), 0.29 + 0.05 * found.get_xdata())
     np.testing.assert_array_equal(other.get_ydata(), [0.28] * 3)
-
-
-def test_a_chart_without_any_peak_is_drawn(chart, blade, draws):
-    peaks = chart.assign(order=4, f_crossing=0.29, E_T=chart.E, f_peak=np.nan, amplitude=np.nan)
-    peaks = peaks.assign(wear_per_cycle=np.nan, lobes=np.nan)
-    draws(chart_explanation(peaks, 6e8))
+    peaks["f_peak"] = np.nan  # of a chart without any peak
     draws(chart_stiffening(peaks, stiffening.table(peaks, blade), 6e8))
 
 
@@ -96,10 +93,8 @@ def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws):
     up, down = draws(sweeps(drawn, {CASE: constant})).axes
     np.testing.assert_allclose(up.lines[0].get_ydata(), [0.2, 2.0, 9.0])
     np.testing.assert_allclose(up.lines[3].get_xydata(), [[SPEED[19], up.lines[2].get_ydata()[19]]])
-    assert len(down.lines) == 2
     np.testing.assert_allclose(down.lines[1].get_xdata(), SPEED[::-1])
     assert up.get_ylim()[1] == pytest.approx(1.08 * 2.0)  # the run that left all bounds is out of it
-    assert up.get_xlim() == pytest.approx((0.14, 0.4))
 
 
 def test_errors_stand_over_steps_and_chaotic_runs_are_left_out():
@@ -113,8 +108,6 @@ def test_errors_stand_over_steps_and_chaotic_runs_are_left_out():
     np.testing.assert_allclose(of_E2.get_ydata(), 2e-3)
     of_E2 = next(line for line in most.get_lines() if line.get_label() == "E = 2")
     np.testing.assert_allclose(of_E2.get_ydata(), 2.8e-3)
-    uniform = [line for line in median.get_lines() if line.get_marker() == "x"]
-    assert [line.get_xdata().tolist() for line in uniform] == [[8e3], [8e3]]
 
 
 def test_differences_by_friction_stand_over_the_speed():
@@ -123,4 +116,3 @@ def test_differences_by_friction_stand_over_the_speed():
     difference, sliding = friction(pd.DataFrame(runs).assign(**coating)).axes
     np.testing.assert_allclose(difference.get_lines()[0].get_ydata(), [2e-3, NONE])
     np.testing.assert_allclose(sliding.get_lines()[0].get_ydata(), [0.4, -0.1])
-    assert sliding.get_ylim()[0] == pytest.approx(-0.11)

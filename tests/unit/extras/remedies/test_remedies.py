@@ -103,12 +103,8 @@ sys.stdin.read()
 """
 
 
-@pytest.fixture
-def other(python_at_work, tmp_path):
-    return python_at_work(CLAIM, tmp_path)
-
-
-def test_who_makes_or_needs_what_another_makes_is_kept_out_until_it_dies(other, tmp_path):
+def test_who_makes_or_needs_what_another_makes_is_kept_out_until_it_dies(python_at_work, tmp_path):
+    other = python_at_work(CLAIM, tmp_path)
     for outputs, inputs in (("a", ""), ("x", "b"), ("c", "")):
         with pytest.raises(BadInput, match="another snakemake is at work"):
             claim(tmp_path, outputs, inputs)
@@ -118,7 +114,8 @@ def test_who_makes_or_needs_what_another_makes_is_kept_out_until_it_dies(other, 
     assert claim(tmp_path, "a", "c") is True
 
 
-def test_an_orderly_end_leaves_no_claim(other, tmp_path):
+def test_an_orderly_end_leaves_no_claim(python_at_work, tmp_path):
+    other = python_at_work(CLAIM, tmp_path)
     (claimed,) = tmp_path.glob("*.json")
     assert json.loads(claimed.read_text()) == {"makes": ["a", "b"], "needs": ["c"]}
     other.communicate()

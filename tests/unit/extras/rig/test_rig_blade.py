@@ -39,13 +39,20 @@ def test_theta_turns_the_force_and_the_impulse_is_over_the_coated_part():
     assert part.pass_energy == pytest.approx(0.1 * whole.pass_energy)
 
 
-def test_without_lasting_hardening_the_force_of_a_constant_feed_becomes_constant():
+def test_a_constant_feed_gives_a_constant_force_without_lasting_hardening_and_warms_what_heats():
     law = described_law("brittle", {"break_strain": 0.004})
     fed = replace(RIG, yield_stress=0.0, incursion=1e-6, passes=120)
     hardening, steady = simulate_passes(fed), simulate_passes(replace(fed, law=law))
     assert hardening.normal_force[119] > 1.15 * hardening.normal_force[99]
     assert steady.normal_force[119] == pytest.approx(steady.normal_force[99])
     assert steady.pass_wear[119] == pytest.approx(1e-6)  # all that it is fed
+    hot = replace(RIG, incursion=1e-6, passes=60, theta=0.3, law=described_law("thermal", LAYER))
+    passes, cold = simulate_passes(hot), simulate_passes(replace(hot, law=RIG.law))
+    assert passes.temperature_rise.iloc[0] == 0
+    assert np.all(np.diff(passes.temperature_rise) > 0)
+    assert np.all(cold.temperature_rise.isna())
+    assert np.all(passes.normal_force[1:] < cold.normal_force[1:])
+    np.testing.assert_allclose(passes.worn_depth, cold.worn_depth)  # E and K fall alike
 
 
 def test_a_rounded_tip_converges_with_the_elements_and_its_energy_to_second_order_with_the_steps():
@@ -64,16 +71,6 @@ def test_a_viscous_coating_resists_a_faster_tip_more():
     slow, fast = (last(replace(viscous, speed=speed)).normal_force for speed in (1e-3, 125.0))
     assert slow == pytest.approx(last(replace(RIG, edge_drop=4e-5)).normal_force, rel=1e-3)
     assert fast > 1.02 * slow
-
-
-def test_passes_warm_a_coating_that_heats():
-    hot = replace(RIG, incursion=1e-6, passes=60, theta=0.3, law=described_law("thermal", LAYER))
-    passes, cold = simulate_passes(hot), simulate_passes(replace(hot, law=RIG.law))
-    assert passes.temperature_rise.iloc[0] == 0
-    assert np.all(np.diff(passes.temperature_rise) > 0)
-    assert np.all(cold.temperature_rise.isna())
-    assert np.all(passes.normal_force[1:] < cold.normal_force[1:])
-    np.testing.assert_allclose(passes.worn_depth, cold.worn_depth)  # E and K fall alike
 
 
 DAMPING = 2.3e-3
@@ -109,6 +106,12 @@ def test_a_blade_yields_and_the_ledger_is_closed(rig, blade):
     assert (made.radial_amplitude > 1e-7).all()
     assert (made.energy_residual < 1e-3).all()
     assert (made.largest_normal_force <= made.largest_pressure * rig.tip_width * rig.tip_length).all()
+    at_rest = replace(blade, stiffness_1=0 * blade.stiffness_1, stiffness_2=0 * blade.stiffness_2)
+    on_disk = passes(rig, blade, disk_turns=True)
+    assert on_disk.equals(passes(rig, at_rest))
+    assert not on_disk.equals(passes(rig, blade))
+    faster = replace(rig, speed=600.0)
+    assert passes(faster, blade, disk_turns=True).worn_depth.iloc[-1] > 0
 
 
 def test_the_blade_keeps_the_impulse(rig, blade):
@@ -119,15 +122,6 @@ def test_the_blade_keeps_the_impulse(rig, blade):
     made = passes(rig, blade).iloc[0]
     impulse = made.normal_impulse * strip_width(blade)[0] / rig.tip_width  # of node 1
     assert made.radial_amplitude == pytest.approx(impulse / (2 * np.pi * 100.0), rel=0.02)
-
-
-def test_a_disk_that_turns_leaves_the_blade_its_stiffness_at_rest(rig, blade):
-    at_rest = replace(blade, stiffness_1=0 * blade.stiffness_1, stiffness_2=0 * blade.stiffness_2)
-    on_disk = passes(rig, blade, disk_turns=True)
-    assert on_disk.equals(passes(rig, at_rest))
-    assert not on_disk.equals(passes(rig, blade))
-    faster = replace(rig, speed=600.0)
-    assert passes(faster, blade, disk_turns=True).worn_depth.iloc[-1] > 0
 
 
 def test_what_cannot_be_simulated_is_refused(rig, blade):
@@ -164,7 +158,6 @@ def test_what_was_measured_stands_beside_what_is_computed_and_a_problem_has_file
     assert first.measured_on_rig["normal_force"] == 50.0
     assert np.isnan(first.measured_on_rig["pass_energy"])
     assert first.computed["normal_force"] == passes.normal_force[0]
-    crosses = [line for line in draw(passes, beside).axes[0].lines if line.get_marker() == "x"]
-    assert [line.get_ydata().item() for line in crosses] == [50.0]
+    assert [50.0] in [line.get_ydata().tolist() for line in draw(passes, beside).axes[0].lines]
     with pytest.raises(ConfigError, match=r"rigs.yaml:\d+: rigs.ballistic_bench.incursion = 0.005: must be"):
         rigs(tmp_path, incursion=5e-3)

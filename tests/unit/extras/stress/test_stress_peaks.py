@@ -62,10 +62,6 @@ def test_the_largest_of_all_nodes_and_instants_is_found_in_each_part(drawn):
             assert found[name] == pytest.approx(whole.max())
             assert found[f"{name}_time"] == time[part][np.unravel_index(whole.argmax(), whole.shape)[1]]
         assert found["alternating"] == pytest.approx(von_mises(np.ptp(values, axis=-1) / 2).max())
-
-
-def test_stress_of_other_coordinates_is_that_of_the_same_motion(drawn):
-    stress, coordinates, _ = drawn
     patterns = np.random.default_rng(2).normal(size=(3, 4))
     np.testing.assert_allclose(stress.of(patterns)(coordinates[:, :3]), stress(coordinates[:, :3] @ patterns))
 

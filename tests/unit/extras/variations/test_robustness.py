@@ -41,16 +41,7 @@ def verdicts(tmp_path):
     return summary.collect(paths)
 
 
-def test_the_factor_that_decides_is_found(verdicts):
-    found = summary.sensitivities(PLAN, verdicts).set_index(["id", "output", "factor"])
-    assert set(found.index.get_level_values("id")) == {"C2a", "C3a"}  # C2b is always the same
-    for id_ in ("C2a", "C3a"):
-        assert found.loc[(id_, "verdict", "unit"), "total"] > 0.5
-        assert found.loc[(id_, "margin", "unit"), "total"] > 0.85
-        assert found.loc[(id_, "margin", "idle"), "total"] < 0.1
-
-
-def test_shares_and_cost_of_each_claim(verdicts):
+def test_the_factor_that_decides_shares_and_cost_of_each_claim_and_the_design_are_listed(verdicts):
     cost = pd.DataFrame({"part": "lobes", "set": range(64), "runs": 40, "cpu_s": np.arange(64.0)})
     cost.loc[64] = ("lobes", -1, 1000, 1000.0)
     table = summary.summary(PLAN, verdicts, summary.sensitivities(PLAN, verdicts), cost).set_index("id")
@@ -66,9 +57,12 @@ def test_shares_and_cost_of_each_claim(verdicts):
     assert table.decided_by["C2b"] == ""
     assert np.isnan(table.predicted["C2b"])
     assert table[["runs_per_sample", "cpu_s_per_sample"]].eq([40, 31.5]).all(axis=None)
-
-
-def test_the_design_lists_every_number_that_a_factor_sets():
+    found = summary.sensitivities(PLAN, verdicts).set_index(["id", "output", "factor"])
+    assert set(found.index.get_level_values("id")) == {"C2a", "C3a"}  # C2b is always the same
+    for id_ in ("C2a", "C3a"):
+        assert found.loc[(id_, "verdict", "unit"), "total"] > 0.5
+        assert found.loc[(id_, "margin", "unit"), "total"] > 0.85
+        assert found.loc[(id_, "margin", "idle"), "total"] < 0.1
     table = summary.design(PLAN)
     assert len(table) == 64 * 3
     value = {key: rows.value.to_numpy() for key, rows in table.groupby("key")}
@@ -101,20 +95,16 @@ def test_factors_set_numbers_and_switches(position, turns):
     assert STUDY["contact"]["modulus_unit"] == 1e9
 
 
-def test_shares_add_up_in_order_and_indices_fill_the_rows_of_what_varies():
+def test_shares_add_up_in_order():
     columns = ["id", "yes_share", "partly_share", "no_share", "predicted"]
     rows = [("C1a", 1.0, 0.0, 0.0, np.nan), ("C2a", 0.5, 0.2, 0.3, 0.4), ("C10b", *4 * [np.nan])]
     table = pd.DataFrame(rows, columns=columns)
     indices = {"factor": ["unit", "lean"], "first": 0.0, "total": [0.3, 0.05], "predicted": 0.4}
     rows = [pd.DataFrame(indices).assign(id="C2a", output=output) for output in ("verdict", "margin")]
-    shares, factors, *_ = robustness(table, pd.concat(rows)).axes
+    shares, *_ = robustness(table, pd.concat(rows)).axes
     widths = np.array([[bar.get_width() for bar in bars] for bars in shares.containers])
     assert widths[:, 1] == pytest.approx([50, 20, 30])
     assert [bars[1].get_x() for bars in shares.containers] == pytest.approx([0, 50, 70])
-    (image,) = factors.collections
-    values = np.ma.filled(image.get_array().astype(float), np.nan)
-    assert values[1] == pytest.approx([0.3, 0.05])
-    assert np.isnan(values[[0, 2]]).all()
 
 
 def test_a_mark_for_each_verdict_and_none_where_there_is_none():
@@ -122,7 +112,6 @@ def test_a_mark_for_each_verdict_and_none_where_there_is_none():
     (axes,) = marks_of(pd.DataFrame(said, index=["C1a", "C2", "C3"])).axes
     marks = {each.get_label(): {tuple(at) for at in each.get_offsets()} for each in axes.collections}
     assert marks == {"yes": {(0, 0), (1, 0), (1, 2)}, "partly": {(1, 1)}, "no": {(0, 1)}}
-    assert axes.yaxis_inverted()
 
 
 @pytest.mark.parametrize(
@@ -134,16 +123,7 @@ def test_a_target_is_missed_on_the_sides_of_its_relation(relation, expected):
     assert np.isnan(target.excess(np.array([np.nan]))).all()
 
 
-def test_quantities_become_a_row_a_set_in_the_order_of_the_targets():
-    names = [TARGETS[3].name, TARGETS[1].name]
-    long = pd.DataFrame({"set": [7, 7, 2, 2], "target": names * 2, "value": [1.0, 2.0, 3.0, 4.0]})
-    table = implausibility.wide(long)
-    assert list(table.columns) == names[::-1]
-    assert list(table.index) == [2, 7]
-    assert table.loc[7, names[0]] == 1.0
-
-
-def test_the_deviation_of_a_prediction_makes_a_set_more_plausible():
+def test_the_deviation_of_a_prediction_makes_a_set_more_plausible_and_quantities_become_a_row_a_set():
     rng = np.random.default_rng(0)
     positions = rng.random((40, 2))
     (target,) = [target for target in TARGETS if target.name == "f4_soft"]
@@ -153,3 +133,9 @@ def test_the_deviation_of_a_prediction_makes_a_set_more_plausible():
     scattered = far + 5 * target.error * rng.standard_normal(40)
     unsure = implausibility.predicted({"f4_soft": Emulator(positions, scattered)}, positions)
     assert unsure.f4_soft.median() < 4
+    names = [TARGETS[3].name, TARGETS[1].name]
+    long = pd.DataFrame({"set": [7, 7, 2, 2], "target": names * 2, "value": [1.0, 2.0, 3.0, 4.0]})
+    table = implausibility.wide(long)
+    assert list(table.columns) == names[::-1]
+    assert list(table.index) == [2, 7]
+    assert table.loc[7, names[0]] == 1.0

@@ -72,6 +72,12 @@ def test_a_sample_sets_every_number_of_its_factors(study, make):
     assert study["casings"]["2nd5nd"]["weights"] == [0.25, 1.0]
     for column in positions.T:  # a Sobol sequence of 16 has one sample in each sixteenth of each factor
         assert sorted((16 * column).astype(int)) == list(range(16))
+    assert list(plan.jobs()) == ["soft/reference", "soft/0", "soft/1", "stiff/reference", "stiff/0"]
+    assert list(configs_of(study, plan, "soft/1")) == list(range(8, 16))
+    own = configs_of(study, plan, "soft/reference")
+    assert own.keys() == {REFERENCE}
+    assert own[REFERENCE]["contact"] == study["contact"]
+    assert own[REFERENCE]["speeds"]["start"] == 0.1
 
 
 def changed(*keys, to):
@@ -128,9 +134,6 @@ def test_only_what_determines_a_sample_is_a_reason_to_run_it(study, make):
     assert determinants(study, plan, job) == before
     study["solver"]["tolerance"] /= 2
     assert not set(determinants(study, plan, job)) & set(before)
-
-
-def test_sets_that_are_drawn_later_depend_on_the_study_and_the_factors(study):
     plan = read("identification", ROOT / "config" / "identification.yaml")
     job = plan.jobs()["wave1/3"]
     assert list(job.sets) == [12, 13, 14, 15]
@@ -139,16 +142,6 @@ def test_sets_that_are_drawn_later_depend_on_the_study_and_the_factors(study):
     study["contact"]["modulus_unit"] *= 2
     changed = determinants(study, plan, job)
     assert not set(map(str, changed[:8])) & set(map(str, before[:8]))
-
-
-def test_jobs_have_their_samples_and_one_the_study_s_own_values(study, make):
-    plan = make(PLAN)
-    assert list(plan.jobs()) == ["soft/reference", "soft/0", "soft/1", "stiff/reference", "stiff/0"]
-    assert list(configs_of(study, plan, "soft/1")) == list(range(8, 16))
-    own = configs_of(study, plan, "soft/reference")
-    assert own.keys() == {REFERENCE}
-    assert own[REFERENCE]["contact"] == study["contact"]
-    assert own[REFERENCE]["speeds"]["start"] == 0.1
 
 
 def sets_of(config):
@@ -167,7 +160,7 @@ def asked(study, tmp_path):
     return asking
 
 
-def test_each_set_is_laid_over_what_is_common(study, asked):
+def test_each_set_is_laid_over_what_is_common_and_that_over_a_file(study, asked, tmp_path):
     text = "common: {speeds: {start: 0.1}, contact: {damping_ratio: 1.0e-3}}\nsets:\n  as_it_is: {}\n"
     text += "  stiff: {contact: {modulus_unit: 400.0e+6}}\n  loose: {contact: {damping_ratio: 5e-3}}\n"
     config = asked(text)
@@ -178,6 +171,13 @@ def test_each_set_is_laid_over_what_is_common(study, asked):
     assert sets["stiff"]["contact"]["modulus_unit"] == 400e6
     assert sets["loose"]["contact"]["modulus_unit"] == study["contact"]["modulus_unit"]
     assert study["speeds"]["start"] == 0.02
+    (tmp_path / "soft.yaml").write_text("contact: {modulus_unit: 1.0e+8, damping_ratio: 1.0e-3}\n")
+    text = "common: {contact: {damping_ratio: 2.0e-3}}\nsets: {a: {}, b: {contact: {modulus_unit: 4.0e+8}}}\n"
+    sets = sets_of(asked(f"file: soft.yaml\n{text}"))
+    assert [config["contact"]["modulus_unit"] for config in sets.values()] == [1e8, 4e8]
+    assert {config["contact"]["damping_ratio"] for config in sets.values()} == {2e-3}
+    with pytest.raises(ConfigError, match=r"plan.yaml:1: file = .*: cannot be read"):
+        sets_of(asked(f"file: none.yaml\n{text}"))
 
 
 def test_every_problem_is_reported_with_its_set(study, asked):
@@ -187,16 +187,6 @@ def test_every_problem_is_reported_with_its_set(study, asked):
     first, second = sorted(problem.text for problem in caught.value.problems)
     assert first.startswith("a: contact.damping_ratio = 2")
     assert second.startswith("c: contact.damping")
-
-
-def test_a_plan_can_name_a_file_that_lies_under_what_is_common(asked, tmp_path):
-    (tmp_path / "soft.yaml").write_text("contact: {modulus_unit: 1.0e+8, damping_ratio: 1.0e-3}\n")
-    text = "common: {contact: {damping_ratio: 2.0e-3}}\nsets: {a: {}, b: {contact: {modulus_unit: 4.0e+8}}}\n"
-    sets = sets_of(asked(f"file: soft.yaml\n{text}"))
-    assert [config["contact"]["modulus_unit"] for config in sets.values()] == [1e8, 4e8]
-    assert {config["contact"]["damping_ratio"] for config in sets.values()} == {2e-3}
-    with pytest.raises(ConfigError, match=r"plan.yaml:1: file = .*: cannot be read"):
-        sets_of(asked(f"file: none.yaml\n{text}"))
 
 
 @pytest.mark.parametrize(("file", "of_the_study"), [("calibration", "study"), ("laws", "plastic")])

@@ -61,26 +61,15 @@ def test_the_first_wave_has_the_study_s_own_values_the_given_ones_and_a_spread(p
     assert np.array_equal(positions, waves.first(plan, STUDY))
 
 
-def test_what_is_left_lies_where_the_targets_are_met(plan, emulated):
+def test_what_is_left_lies_where_the_targets_are_met_and_the_next_sets_there_far_from_each_other(
+    plan, emulated, positions, measured
+):
     left = waves.remaining(plan, emulated)
     assert left.given_up == 0
     assert np.abs(left.points.mean(axis=0) - [0.3, 0.8]).max() < 0.05
     # three of 40 standard deviations on both sides, in both factors
     assert left.share == pytest.approx(0.15**2, rel=0.1)
     assert left.plausible["f4_soft"] == pytest.approx(0.15, rel=0.1)
-
-
-def test_as_few_targets_are_given_up_as_leave_enough(plan, positions, measured):
-    nowhere = measured.assign(f6_straight=TARGET["f6_straight"].value + 1.0)
-    emulated = {name: Emulator(positions, values.to_numpy()) for name, values in nowhere.items()}
-    left = waves.remaining(plan, emulated)
-    assert left.given_up == 1
-    assert left.share >= plan.remaining
-    assert left.plausible["f6_straight"] == 0
-
-
-def test_the_next_sets_are_plausible_and_far_from_each_other(plan, positions, emulated):
-    left = waves.remaining(plan, emulated)
     drawn = waves.draw(plan, 1, left, emulated, positions)
     assert len(drawn) == waves.DRAWN
     assert (without(predicted(emulated, drawn), left.given_up) <= 3).all()
@@ -88,6 +77,12 @@ def test_the_next_sets_are_plausible_and_far_from_each_other(plan, positions, em
     apart = np.linalg.norm(first[:, None] - first, axis=2)[~np.eye(8, dtype=bool)]
     assert apart.min() > 0.02
     assert np.array_equal(drawn, waves.draw(plan, 1, left, emulated, positions))
+    nowhere = measured.assign(f6_straight=TARGET["f6_straight"].value + 1.0)
+    emulated = {name: Emulator(positions, values.to_numpy()) for name, values in nowhere.items()}
+    left = waves.remaining(plan, emulated)
+    assert left.given_up == 1
+    assert left.share >= plan.remaining
+    assert left.plausible["f6_straight"] == 0
 
 
 def verdicts(**holds):
@@ -105,7 +100,9 @@ def chosen(plan, positions, measured):
     return candidates.choose(plan, table, measured, judged)
 
 
-def test_the_best_sets_and_their_neighbours_are_chosen_beside_the_study_s_own(chosen, measured):
+def test_the_best_sets_and_their_neighbours_are_chosen_and_the_parts_that_hold_there_counted(
+    chosen, measured, plan
+):
     assert len(chosen) == 3 * 4
     themselves = chosen[chosen.neighbour == 0]
     assert themselves.set.iloc[0] == candidates.OWN
@@ -117,9 +114,6 @@ def test_the_best_sets_and_their_neighbours_are_chosen_beside_the_study_s_own(ch
         moved = np.abs(np.array(others) - itself)
         assert (moved <= 0.02 + 1e-12).all()
         assert moved.max() == pytest.approx(0.02)
-
-
-def test_parts_that_hold_are_counted_by_whether_they_were_matched(plan, chosen):
     long = candidates.as_table(plan, chosen)
     rows = [(0, "C4a", "yes"), (0, "C6a", "yes"), (0, "C1a", "yes"), (0, "C9a", "no")]
     rows += [(4, "C4a", "partly"), (4, "C6a", "no"), (4, "C1a", "yes"), (4, "C9a", "no")]
@@ -155,9 +149,6 @@ def test_a_smooth_function_is_predicted_between_the_sets_and_noise_is_not():
     assert held_out(emulator, PLACES, smooth(PLACES)).explained > 0.95
     noise = np.random.default_rng(4).standard_normal(60)
     assert held_out(Emulator(PLACES, noise), PLACES, noise).explained < 0.4
-
-
-def test_scatter_is_part_of_the_predicted_deviation():
     rng = np.random.default_rng(3)
     emulator = Emulator(PLACES, smooth(PLACES) + 0.3 * rng.standard_normal(60))
     others = rng.random((400, 4))
