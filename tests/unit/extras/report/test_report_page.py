@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 import yaml
 
+from bladerub import plugins
 from bladerub.cli import inputs, main
 from bladerub.extras.report import words
 from bladerub.io import hdf5, tables
@@ -70,7 +71,9 @@ def study(config, make_map, tmp_path, monkeypatch):
         "rom_accuracy": accuracy,
     }
     for name, frame in frames.items():
-        tables.write(folder / "tables" / f"{name}.csv", frame, provenance(config))
+        tables.write(
+            folder / f"tables/{name}.csv", frame, provenance(config), None, plugins.files("columns.csv")
+        )
     monkeypatch.setattr(inputs, "study_folder", lambda: tmp_path)
     (tmp_path / "small.yaml").write_text(yaml.safe_dump(OVERLAY))
     return folder
