@@ -85,6 +85,8 @@ def test_elements_behind_the_tip_are_worn_and_those_ahead_are_not():
     assert (scene.wear[behind] > 0).all()
     assert scene.wear[behind] == pytest.approx(scene.wear[0])
     assert not scene.wear[ahead].any()
+    assert scene.shortening[6] == pytest.approx(1.5e-4)
+    np.testing.assert_array_equal(scene.shortening[behind], scene.wear[behind])
     assert not scene.stress[behind | ahead].any()
 
 

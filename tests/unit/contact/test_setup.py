@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+import scipy.linalg
 
 from bladerub.contact import setup
 from bladerub.contact.setup import SEARCH_RANGE, minimum_gap
@@ -90,6 +91,21 @@ def test_the_step_is_the_longest_that_is_allowed(uneven, spec, change, max_time_
     assert simulation.steps_per_element == steps
     assert rule.time_step == pytest.approx(passage / steps)
     assert rule.time_step <= max_time_step
+
+
+@pytest.mark.parametrize("damping", [2e-3, 0.4])
+def test_a_deflected_blade_has_moved_freely_until_then(blade, spec, change, damping):
+    rule, simulation = setup.set_up(blade, change(spec, initial_displacement=1e-5, damping_ratio=damping))
+    omega = rule.omega[0]
+    motion = np.array([[0.0, 1.0], [-(omega**2), -2 * damping * omega]])
+    before, _ = scipy.linalg.expm(-rule.time_step * motion) @ [1.0, 0.0]
+    assert simulation.state.q[1, 0] / simulation.state.q[0, 0] == pytest.approx(before, rel=1e-12)
+
+
+def test_no_node_of_a_conical_tip_is_searched_beyond_the_range(blade, spec):
+    position = blade.node_position * np.linspace(1.0, 1.2, 8)[:, None]
+    tip = setup.tip_record(dataclasses.replace(blade, node_position=position), spec)
+    assert (tip.search_range * tip.per_metre).max() == pytest.approx(SEARCH_RANGE)
 
 
 def at_radius(blade, radius):
