@@ -42,6 +42,7 @@ ROWS = [
     ("figures:\n  dpi: 2\nfigure: {dpi: 200}\n", 3, "figure", "did you mean figures?"),
     ("solver: {revolutions: yes}\n", 1, "solver.revolutions", "a whole number from 1 to 10000"),
     ("ensemble: {members: -8}\n", 1, "ensemble.members", "a whole number from 0 to 1000"),
+    ("analysis: {peaks: {orders: [4, 4]}}\n", 1, "analysis.peaks.orders", "must not name one twice"),
     ("results: ../elsewhere\n", 1, "results", "a folder below"),
 ]
 BOTH = "coatings: [{casing: 2nd, E: [1], K: [2], theta: [0.0], friction: [0.1]}]\n"

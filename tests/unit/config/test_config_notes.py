@@ -38,6 +38,7 @@ def test_histories_of_replaced_coatings_and_speeds_are_left_out_with_one_note(
 ):
     config, (note,) = laid_over(content)
     assert note.startswith(f"analysis.histories: {left_out} left out")
+    assert note.endswith(", ...)")
     cases = coating_cases(config)
     assert [f for f in speeds(config) if any(keeps_history(config, case, f) for case in cases)] == kept
 

@@ -10,6 +10,7 @@ from bladerub.blade.files import made_from
 from bladerub.config.errors import ConfigError
 from bladerub.config.quantities import number, references
 from bladerub.config.read import read
+from bladerub.config.units import speeds_in_words
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases, run_spec
 from bladerub.study.plan import coating_plan
@@ -92,6 +93,11 @@ def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
     thickness = [run_spec(config, case, 0.19).coating.thickness for config in configs]
     assert thickness == pytest.approx([6e-3, 12e-3])
     assert number("E", "1.8 GPa", references(configs[0])) == 1.0
+
+
+def test_speeds_are_told_with_their_ends_in_rpm():
+    words = speeds_in_words([0.1, 0.2, 0.4], 200.0)
+    assert words == "3, from 0.1 to 0.4 of the first frequency at rest, 1,200 to 4,800 rpm"
 
 
 @pytest.mark.parametrize(
