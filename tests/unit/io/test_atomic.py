@@ -1,11 +1,12 @@
 import os
 import threading
 import time
+from unittest.mock import Mock
 
 import pytest
 
 from bladerub.io import atomic, lock
-from bladerub.io.folders import cache_folder
+from bladerub.io.folders import CONFIG, cache_folder, study_folder
 
 HALF_WRITTEN = """
 import sys
@@ -49,12 +50,14 @@ def test_a_kill_leaves_the_old_file_and_a_temporary_one_that_is_swept(tmp_path, 
 
 
 def test_of_another_host_only_what_is_old_is_swept(tmp_path, monkeypatch):
-    fresh, old, foreign = (tmp_path / name for name in (".a.node1.7.tmp", ".b.node1.7.tmp", ".b.tmp"))
-    for path, age in ((fresh, 3500), (old, 3700), (foreign, 3700)):
+    names = (".a.node1.7.tmp", ".b.node1.7.tmp", ".b.tmp", f".c.{atomic._HOST}.7.tmp")
+    fresh, old, foreign, other = (tmp_path / name for name in names)
+    monkeypatch.setattr(atomic.os, "kill", Mock(side_effect=PermissionError))  # of another user
+    for path, age in ((fresh, 3500), (old, 3700), (foreign, 3700), (other, 3700)):
         path.touch()
         os.utime(path, (time.time() - age, time.time() - age))
     atomic.delete_abandoned(tmp_path)
-    assert sorted(tmp_path.iterdir()) == [fresh, foreign]
+    assert sorted(tmp_path.iterdir()) == [fresh, foreign, other]
     monkeypatch.setattr(atomic, "_is_abandoned", lambda path, *_: path.unlink() is None)
     atomic.delete_abandoned(tmp_path)  # another process swept it meanwhile
     assert sorted(tmp_path.iterdir()) == [foreign]
@@ -63,7 +66,7 @@ def test_of_another_host_only_what_is_old_is_swept(tmp_path, monkeypatch):
 @pytest.mark.parametrize("mode", ["w", "wb"])
 def test_the_content_is_on_the_disk_before_the_file_gets_its_name(tmp_path, monkeypatch, mode):
     """What Python still buffers when the file is synchronised would be lost with the power."""
-    path, sync, rename, steps = tmp_path / "folder" / "file", os.fsync, os.replace, []
+    path, sync, rename, steps = tmp_path / "new" / "folder" / "file", os.fsync, os.replace, []
 
     def synchronised(descriptor):
         steps.append(("synchronised", os.fstat(descriptor).st_size))
@@ -131,3 +134,11 @@ def test_a_user_without_a_home_keeps_things_where_nobody_else_writes(homeless):
 def test_a_folder_that_is_named_is_used(homeless, tmp_path, monkeypatch, name):
     monkeypatch.setenv(name, str(tmp_path / "named"))
     assert cache_folder().is_relative_to(tmp_path / "named")
+
+
+def test_a_study_is_found_from_a_folder_in_it_whatever_the_encoding_of_its_snakefile(tmp_path, monkeypatch):
+    for name, content in ((CONFIG, b""), ("Snakefile", b"# \xe4 bladerub"), ("results/maps/a", b"")):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes(content)
+    monkeypatch.chdir(tmp_path / "results" / "maps")
+    assert study_folder() == tmp_path

@@ -8,8 +8,10 @@ import xarray as xr
 
 from bladerub.io import errors, hdf5
 from bladerub.io.checksum import file_checksum
+from bladerub.io.equality import equal
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
+from bladerub.io.optional import MissingPackage, package
 
 VARIABLES = {
     "angle": Variable(("angle",), np.linspace(0, 6, 5), "rad", "casing angle"),
@@ -44,6 +46,33 @@ def test_files_with_repeated_values_hold_their_own(tmp_path):
         assert data["name"].tolist() == ["tip", "Bürste"]
         assert told == hdf5.read_attributes(tmp_path / "file.h5") == attributes
         np.testing.assert_array_equal(data["node"], [0, 1])
+
+    with h5py.File(tmp_path / "file.h5") as file:
+        assert (file["peak"].compression, file["peak"].fletcher32) == ("gzip", True)
+    assert hdf5.read(tmp_path / "file.h5", only={"wear", "unknown"})[0].keys() == {"wear"}
+
+
+def test_a_changed_bit_is_noticed_and_an_error_of_the_system_keeps_its_number(tmp_path):
+    path = tmp_path / "file.h5"
+    hdf5.write(path, VARIABLES, {})
+    path.write_bytes(path.read_bytes().replace(np.float64(3.5).tobytes(), np.float64(3.25).tobytes()))
+    with pytest.raises(DamagedFile, match="not as it was written"):
+        hdf5.read(path)
+    errors = (OSError(errno.EIO, "x"), OSError("read failed: errno = 5"), ValueError("no dataset"))
+    for error, number in zip(errors, (errno.EIO, errno.EIO, None), strict=True):
+        with pytest.raises(OSError, match=r"file\.h5") as told, hdf5.opened(path):
+            raise error
+        assert (told.value.errno, isinstance(told.value, DamagedFile)) == (number, number is None)
+
+
+def test_equal_mappings_have_equal_keys_and_values():
+    assert equal({"a": 1, "b": np.nan}, {"b": np.nan, "a": 1})
+    assert not any(equal({"a": 1, "b": 2}, other) for other in ({"a": 1, "c": 2}, {"a": 1, "b": 3}))
+
+
+def test_a_package_that_is_missing_is_named_with_its_extra():
+    with pytest.raises(MissingPackage, match=r"needs no_such: pip install 'bladerub\[gpu\]'"):
+        package("no_such.part", "gpu")
 
 
 def test_a_file_does_not_depend_on_those_before(tmp_path):
@@ -85,6 +114,7 @@ def test_unreadable_file_is_named(tmp_path, read):
         (errors.DamagedFile("a.h5: not a map"), "a.h5: not a map; delete it and run the same command again"),
         (OSError(errno.ENOSPC, "No space left on device", "a.h5"), "a.h5: the disk is full; make room"),
         (OSError("something else"), "something else"),
+        (OSError(errno.EACCES, "Permission denied", "new"), "new: Permission denied; make it writable"),
     ],
 )
 def test_the_program_ends_with_file_and_remedy_in_one_line(capsys, error, words):

@@ -69,7 +69,7 @@ def test_a_file_has_what_made_it_as_attributes(monkeypatch):
     output = provenance.provenance(CONFIG)
     packages = dict(entry.split("==") for entry in output.pop("provenance_packages").split())
     assert packages["python"] == platform.python_version()
-    assert {"numpy", "scipy", "numba", "h5py", "scikit-fem", "pandas"} <= packages.keys()
+    assert {"numpy", "scipy", "numba", "h5py", "scikit-fem", "rslab", "pandas"} <= packages.keys()
     assert output == {
         "provenance_software": f"bladerub {__version__}",
         "provenance_git_commit": "abc",
@@ -77,3 +77,12 @@ def test_a_file_has_what_made_it_as_attributes(monkeypatch):
         "provenance_config_sha256": provenance.config_digest(CONFIG),
     }
     assert provenance.software() == f"bladerub {__version__}, git commit abc (clean)"
+
+
+def test_the_digest_is_of_what_a_config_says():
+    digest = provenance.config_digest
+    blade, coating = CONFIG["blade"], CONFIG["coatings"][0]
+    same = [{"results": "other"}, {"blade": {"eta": 6.0, "length": 0.2}}]
+    others = [{"blade": blade | {"length": 0.3}}, {"coatings": [coating | {"rigid": 0}]}]
+    assert {digest(CONFIG | change) for change in same} == {digest(CONFIG)}
+    assert len({digest(CONFIG | change) for change in (*others, {})}) == 3

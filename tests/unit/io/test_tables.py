@@ -9,7 +9,7 @@ from bladerub.io import tables
 from bladerub.io.errors import DamagedFile
 from bladerub.io.folders import ROOT
 
-ORIGIN = {"provenance_software": "bladerub 1", "provenance_git_commit": "abc"}
+ORIGIN = {"provenance_software": "bladerüb 1", "provenance_git_commit": "abc"}
 
 
 @pytest.fixture
@@ -26,7 +26,9 @@ def test_the_table_is_plain_csv(table, tmp_path):
 
 def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
     tables.write(tmp_path / "peaks.csv", table, ORIGIN)
-    about = json.loads((tmp_path / "peaks.csv-metadata.json").read_text(encoding="utf-8"))
+    text = (tmp_path / "peaks.csv-metadata.json").read_text(encoding="utf-8")
+    about = json.loads(text)
+    assert "bladerüb" in text
     assert about["url"] == "peaks.csv"
     output = {entry["schema:name"]: entry["schema:value"] for entry in about["dc:provenance"]}
     assert output == ORIGIN
@@ -59,12 +61,19 @@ def test_a_column_that_nobody_described_is_refused_before_anything_is_written(ta
     assert not list(tmp_path.iterdir())
 
 
-def test_what_is_not_the_whole_table_is_named(tmp_path):
+def test_what_is_not_the_whole_table_is_named(tmp_path, table):
     path = tmp_path / "table.csv"
+    path.write_text("E\tamplitude\n1\t2\n")
+    assert tables.read(path, ["E"], "\t").amplitude.tolist() == [2]
     for content, words in (
         ("E,amp", "not a whole table"),
         ("K,amplitude\n1,2\n", "not the right table, E"),
+        ("E,amplitude\n1,2\n1,2,3\n", "not a table"),
     ):
         path.write_text(content)
         with pytest.raises(DamagedFile, match=rf"table\.csv: {words}"):
             tables.read(path, ["E", "amplitude"])
+    tables.write(path, table, ORIGIN)
+    path.write_text(path.read_text().replace("0.33", "0.43"))
+    with pytest.raises(DamagedFile, match=r"table\.csv: not as it was written"):
+        tables.read(path)
