@@ -22,6 +22,7 @@ def test_draws_are_those_of_their_number_whatever_the_others_and_a_plan_may_have
     planned = plan.runs(study, name)
     runs = planned.runs
     assert not planned.follow
+    assert runs[0].n_blades == 4
     assert len(runs) == plan.draws[name]
     assert len({run.determinants for run in runs}) == len(runs)
     twice = Combination(CASE, 0.346, 4, 1e-4, 0.005).row(plan.seed + 7)

@@ -30,6 +30,9 @@ def test_a_coating_listed_twice_is_named(config):
     config["coatings"].append({"casing": "2nd", "E": [2.0], "K": [0.5], "theta": [0.15]})
     with pytest.raises(ValueError, match=r"coatings\[4\]: 2nd_E2_K0.5_theta0.15 is listed twice"):
         grid.coating_cases(config)
+    config["coatings"][4] |= {"E": list(range(3, 73)), "K": list(range(71))}
+    with pytest.raises(ValueError, match=r"coatings\[4\]: .* to 5033, .* must be 5000 or fewer"):
+        grid.coating_cases(config)
 
 
 @pytest.mark.parametrize(("friction", "name"), [(0, "2nd_rigid_mu0"), (0.15, "2nd_rigid_mu0.15")])

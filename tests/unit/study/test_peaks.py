@@ -52,6 +52,8 @@ def test_a_missing_peak_has_a_reason(make_map, settings):
         f_omega, amplitude, why = peaks.peak(coating, order, settings)
         assert np.isnan([f_omega, amplitude]).all()
         assert why.startswith(reason)
+    with pytest.raises(ValueError, match=r"max_order: the spectra of 2nd_E1.1_\S+ do not reach order 25"):
+        peaks.peak(make_map(CASE, {}), 25, settings)
 
 
 def test_the_table_has_a_row_per_coating_and_order(config, make_map):
@@ -82,6 +84,8 @@ def test_the_table_has_a_row_per_run_judged_by_the_longer_one_where_there_is_one
     assert list(table.f_omega) == speeds * 2
     assert list(table.lobes) == lobes * 2
     assert list(table.divergent) == [False, False, True, True, True, False, True, False]
+    words = [divergence.in_a_word(verdict) for verdict in divergence.verdicts(config, maps[1])]
+    assert words == ["divergent", "saturating", "divergent", "bounded"]
     assert list(table.saturating) == [False] * 5 + [True, False, False]
     assert list(table.revolutions) == [20] * 4 + [60, 60, 41, 20]
     assert np.flatnonzero(table.status == "unbounded").tolist() == [3, 6]

@@ -90,7 +90,7 @@ def test_the_longer_run_is_the_same_run_for_longer(config, spec):
     assert confirmation_spec(spec, settings).revolutions == 60
     run = planned_run(config, spec, "0.1900.h5", keep_history=True)
     longer = longer_run(config, run)
-    assert longer.file == "confirmation/0.1900.h5"
+    assert (longer.file, longer.n_blades) == ("confirmation/0.1900.h5", 1)
     assert (longer.spec, longer.keep_history) == (confirmation_spec(spec, settings), False)
     assert longer.key("blade") != run.key("blade")
 

@@ -82,6 +82,7 @@ def test_runs_that_grow_are_repeated_for_longer_once(compute, simulated, growing
     assert repeated == [0.1, 0.2]  # 0.3 is unbounded
     assert [bool(row.confirmation_key) for row in rows] == [True, False, True, False]
     assert [(done.number, done.total) for done in reports[4:]] == [(1, 2), (2, 2)]
+    assert [done.seconds_left > 1e-9 for done in reports] == [True, True, True, False, True, False]
     longer = read_run(tmp_path / "confirmation" / "0.2000.h5")
     assert longer.attributes["run_key"] == rows[2].confirmation_key != rows[2].run_key
     assert longer.data["revolution_amplitude"].shape == (60,)
