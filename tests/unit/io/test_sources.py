@@ -38,6 +38,9 @@ FILES = {
     "io/hdf5.py": "from bladerub.io import atomic\n",
     "io/atomic.py": "",
     "contact/run.py": "",
+    "extras/a.py": "from bladerub.extras.b import x\ndef f():\n    from bladerub.extras.c import y\n",
+    "extras/b.py": "",
+    "extras/c.py": "",
 }
 STUDY = ["study/__init__.py", "study/findings/claim.py", "study/grid.py", "study/maps.py"]
 
@@ -113,3 +116,5 @@ def test_imports_are_followed_within_the_subpackages_of_the_modules(tmp_path, mo
         (["io.atomic"], ["io/atomic.py"]),
     ):
         assert sources.files_behind(*modules) == [f"src/bladerub/{name}" for name in behind]
+    # what is imported within a function is needed only there
+    assert sources.extras_behind("from bladerub.extras.a import z\n") == {"a", "b"}
