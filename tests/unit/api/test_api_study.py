@@ -22,12 +22,19 @@ def test_bad_argument_is_named_with_value_and_what_is_right(study, arguments, na
     assert str(caught.value) == f"{name} = {caught.value.value}: {caught.value.right}"
 
 
-def test_config_error_names_file_line_and_key(tmp_path):
+def test_a_wrong_value_is_named_with_file_line_and_key_and_a_replaced_one_leaves_the_study_as_it_was(
+    tmp_path, study
+):
     path = tmp_path / "bad.yaml"
     path.write_text("\nblade:\n  length: -1\n")
     with pytest.raises(br.ConfigError) as caught:
         br.load_study(path)
     assert str(caught.value).startswith(f"{path}:3: blade.length = -1")
+    damped = study.replace("contact.damping_ratio", 1e-3)
+    assert damped.config["contact"]["damping_ratio"] == 1e-3
+    assert damped == study.replace({"contact": {"damping_ratio": 1e-3}}) != study
+    with pytest.raises(br.ConfigError, match=r"contact\.damping_ratio = 2"):
+        study.replace("contact.damping_ratio", 2)
 
 
 def test_a_config_is_found_in_the_working_directory_or_the_package(tmp_path, monkeypatch):
@@ -36,14 +43,6 @@ def test_a_config_is_found_in_the_working_directory_or_the_package(tmp_path, mon
     (tmp_path / "config").mkdir()
     (tmp_path / "config" / "quick.yaml").write_text("solver: {revolutions: 30}\n")
     assert br.load_study("config/quick.yaml").config["solver"]["revolutions"] == 30
-
-
-def test_a_replaced_value_is_checked_and_leaves_the_study_as_it_was(study):
-    damped = study.replace("contact.damping_ratio", 1e-3)
-    assert damped.config["contact"]["damping_ratio"] == 1e-3
-    assert damped == study.replace({"contact": {"damping_ratio": 1e-3}}) != study
-    with pytest.raises(br.ConfigError, match=r"contact\.damping_ratio = 2"):
-        study.replace("contact.damping_ratio", 2)
 
 
 def test_a_run_in_units_is_that_in_plain_numbers(study):
@@ -80,13 +79,10 @@ def test_speeds_ascend_and_are_the_single_runs_whatever_the_jobs(study, blade, s
     assert sweep.f_omega.tolist() == [0.19, 0.2]
     single = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), follow=False)
     np.testing.assert_array_equal(sweep.wear[0], single.wear.mean(axis=0))
-
-
-@pytest.mark.parametrize("speeds", [[0.2], [0.2, 0.2], [0.2, 0.45]])
-def test_speeds_that_make_no_map_are_named(study, blade, speeds):
-    with pytest.raises(br.InputError) as caught:
-        br.simulate_speeds(blade, study.coating("2nd", E=2, K=0.5), speeds, progress=False)
-    assert caught.value.name == "speeds"
+    for speeds in ([0.2], [0.2, 0.2], [0.2, 0.45]):
+        with pytest.raises(br.InputError) as caught:
+            br.simulate_speeds(blade, coating, speeds, progress=False)
+        assert caught.value.name == "speeds"
 
 
 def test_written_map_is_what_xarray_opens_and_read_map_reads(study, sweep, tmp_path):

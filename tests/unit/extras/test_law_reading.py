@@ -20,7 +20,9 @@ def with_law(config, monkeypatch, tmp_path):
     return lambda **law: {**config, "contact": {**config["contact"], "law": law}}
 
 
-def test_the_law_of_the_elements_is_plastic_unless_the_config_names_another(config, with_law):
+def test_the_law_of_the_elements_is_plastic_unless_the_config_names_another_or_a_file(
+    config, with_law, tmp_path
+):
     case = CoatingCase("2nd", 1.1, 0.5, 0.0)
     wanted = grid.run_spec(config, case, 0.2)
     assert wanted == grid.run_spec(with_law(name="plastic"), case, 0.2)
@@ -28,9 +30,6 @@ def test_the_law_of_the_elements_is_plastic_unless_the_config_names_another(conf
     other = with_law(name="viscoplastic", viscosity=1e4)
     assert grid.run_spec(other, case, 0.2).coating.element_law.parameters == (("viscosity", 1e4),)
     assert grid.run_spec(other, CoatingCase.rigid("2nd", 0.1), 0.2).coating.element_law == PLASTIC
-
-
-def test_the_content_of_a_law_in_a_file_is_part_of_the_run(with_law, tmp_path):
     (tmp_path / "mine.py").write_text(LAW, encoding="utf-8")
     found = grid.element_law(with_law(file="mine.py", slope=2.0))
     assert (found.name, found.parameters, found.source) == ("mine", (("slope", 2.0),), LAW)

@@ -73,7 +73,7 @@ def stored(write_run, make_result, spec, tmp_path):
     return write
 
 
-def test_both_laws_are_compared_speed_by_speed(stored):
+def test_both_laws_are_compared_speed_by_speed_for_coatings_that_are_no_part_of_the_study(stored, config):
     constant = stored("theta", [0.1, 0.2], n_reversed_steps=30, slowest_sliding=-0.2)
     coulomb = stored("coulomb", [0.1, 0.2], amplitude=1.1e-3, n_reversed_steps=60, status="unbounded")
     table = friction.table([(constant, coulomb)], revolutions=10)
@@ -87,6 +87,11 @@ def test_both_laws_are_compared_speed_by_speed(stored):
     assert (first.reversed_theta, first.reversed_coulomb) == pytest.approx((0.1, 0.2))
     assert first.slowest_sliding == -0.2
     assert (first.status_theta, first.status_coulomb) == ("completed", "unbounded")
+    config["friction"] = [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.15, 0.3]}]
+    cases = compared(config)
+    assert [case.name for case in cases[:2]] == ["2nd_E3_K0.5_theta0.15", "2nd_E3_K0.5_mu0.151135"]
+    assert [grid.case_from_name(config, case.name) for case in cases] == cases
+    assert not set(cases) & set(grid.coating_cases(config))
 
 
 SPEEDS = (0.0, 0.2, 0.4)
@@ -130,11 +135,3 @@ def test_runs_are_compared_at_the_common_speeds(config, case, make_map):
     shares = table[["worn_depth_share", "reference_worn_depth_share"]].to_numpy()
     np.testing.assert_allclose(shares, 2 * [[1e-4 / 0.1, 1e-4 / 0.2]], rtol=1e-5)
     assert (table.casing == case.casing).all()
-
-
-def test_compared_coatings_are_found_by_name_and_are_no_part_of_the_study(config):
-    config["friction"] = [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.15, 0.3]}]
-    cases = compared(config)
-    assert [case.name for case in cases[:2]] == ["2nd_E3_K0.5_theta0.15", "2nd_E3_K0.5_mu0.151135"]
-    assert [grid.case_from_name(config, case.name) for case in cases] == cases
-    assert not set(cases) & set(grid.coating_cases(config))

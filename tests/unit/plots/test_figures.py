@@ -41,14 +41,29 @@ GROWING[150:] = np.nan
 AMPLITUDE = [1.6e-4, 2.7e-4, 4.4e-4, np.nan]
 
 
-def test_depth_over_speed_and_angle(coating_map, draws):
-    upper, lower, _ = draws(wear_map(coating_map)).axes
+def second(axes, along):
+    """Limits of the second scale along "x" or "y"."""
+    axes.figure.canvas.draw()
+    (found,) = [child for child in axes.child_axes if getattr(child, f"get_{along}label")()]
+    return getattr(found, f"get_{along}lim")()
+
+
+def nominal(axes):
+    (line,) = [line for line in axes.lines if "nominal" in line.get_label()]
+    return line.get_xdata()[0]
+
+
+def test_depth_over_speed_and_angle_and_the_speed_of_the_rotor(coating_map, draws):
+    upper, lower, _ = draws(wear_map(coating_map, SCALES)).axes
     mesh = upper.collections[0]
     np.testing.assert_allclose(mesh.get_array().reshape(40, 6), 1e3 * coating_map.wear.T)
     np.testing.assert_allclose(mesh.get_coordinates()[:, 0, 1], np.arange(41) * 9.0, atol=1e-9)  # degrees
-    completed, early = lower.lines
+    completed, early, *_ = lower.lines
     np.testing.assert_array_equal(completed.get_ydata(), [5, 5, 10, 5, 5])
     np.testing.assert_array_equal(early.get_xydata(), [[0.35, 4]])
+    assert lower.get_xlim() == pytest.approx((0.075, 0.375))
+    assert second(lower, "x") == pytest.approx(60 * 850 * np.array([0.075, 0.375]))
+    assert nominal(upper) == nominal(lower) == pytest.approx(0.3)
 
 
 def test_amplitudes_and_c1_lie_on_their_frequency_on_the_given_scale(coating_map, draws):
@@ -81,8 +96,7 @@ def test_casing_is_magnified_inward(draws):
     circle, two = axes.lines
     np.testing.assert_allclose(circle.get_ydata(), 0.65)
     np.testing.assert_allclose(two.get_ydata()[:-1], 0.65 - 0.1 * np.cos(2 * ANGLE))
-    angle, radius = two.get_data()  # closed
-    assert (angle[-1] - angle[0], radius[-1]) == (pytest.approx(2 * np.pi), radius[0])
+    assert np.ptp(two.get_xdata()) == pytest.approx(2 * np.pi)  # closed
 
 
 def test_wear_is_that_of_the_speeds_asked_for(coating_map, draws):
@@ -107,25 +121,6 @@ def test_lines_have_slope_k_and_end_at_the_frame(over):
         assert start.tolist() == [0, 0]
         assert f == pytest.approx(k * speed)
         assert speed == pytest.approx(0.4) or f == pytest.approx(2.0)
-
-
-def second(axes, along):
-    """Limits of the second scale along "x" or "y"."""
-    axes.figure.canvas.draw()
-    (found,) = [child for child in axes.child_axes if getattr(child, f"get_{along}label")()]
-    return getattr(found, f"get_{along}lim")()
-
-
-def nominal(axes):
-    (line,) = [line for line in axes.lines if "nominal" in line.get_label()]
-    return line.get_xdata()[0]
-
-
-def test_a_wear_map_has_the_speed_of_the_rotor_from_the_first_of_the_study_on(coating_map, draws):
-    upper, lower, _ = draws(wear_map(coating_map, SCALES)).axes
-    assert lower.get_xlim() == pytest.approx((0.075, 0.375))
-    assert second(lower, "x") == pytest.approx(60 * 850 * np.array([0.075, 0.375]))
-    assert nominal(upper) == nominal(lower) == pytest.approx(0.3)
 
 
 def test_a_campbell_diagram_has_both_models_on_both_scales(draws):

@@ -49,25 +49,12 @@ def test_the_blade_comes_back_from_its_file(blade, write, name, sets):
     assert imported.jacobian_ratio.min() > 0
 
 
-def test_flow_against_x_turns_the_interface_and_the_cone_around(blade, write):
+def test_flow_against_x_turns_the_interface_and_the_cone_around_and_loose_nodes_are_left_out(blade, write):
     path = write(points=1e3 * blade.mesh.points)
     imported = import_blade(Source(path, Frame("mm", downstream="-x"), tip_cone=-9.0), {})
     mesh, ours = imported.blade.mesh, blade.mesh.points[blade.interface]
     np.testing.assert_allclose(mesh.mesh.points[mesh.interface], ours[::-1], atol=1e-15)
     assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(9.0)
-
-
-def test_tetrahedra_become_a_blade(tmp_path):
-    counts = {"chordwise": 14, "thickness": 2, "spanwise": 6}
-    mesh, cube = tetrahedral_mesh(*lattice(counts), BladeShape.from_config(TWISTED).points)
-    write_mesh_file(tmp_path / "blade.msh", mesh.points, mesh.cells, {})
-    found = import_blade(Source(tmp_path / "blade.msh"), {}).blade.mesh
-    for nodes, end in ((found.root, 0), (found.tip, 1)):
-        there, expected = found.mesh.points[nodes], mesh.points[cube[2] == end]
-        np.testing.assert_array_equal(np.unique(there, axis=0), np.unique(expected, axis=0))
-
-
-def test_nodes_in_no_element_are_left_out(blade, write):
     imported = import_blade(Source(write(points=np.vstack([blade.mesh.points, [[0, 0, 0], [9, 9, 9]]]))), {})
     assert imported.n_unused == 2
     assert len(imported.blade.mesh.mesh.points) == len(blade.mesh.points)
@@ -112,7 +99,6 @@ def test_broken_meshes_are_refused_with_file_and_culprit(blade, write):
 
 @pytest.mark.parametrize(("degrees", "is_part"), [(40.0, True), (50.0, False)])
 def test_the_tip_is_what_faces_within_45_degrees_of_the_radius(degrees, is_part):
-    """A block whose top falls off from its middle on, so that one half of it faces sideways."""
     fall = np.tan(np.deg2rad(degrees))
 
     def points(xi, eta, zeta):

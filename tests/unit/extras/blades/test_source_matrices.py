@@ -90,7 +90,11 @@ def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
         assert abs(theirs - ours).max() <= 1e-12 * abs(ours).max()
 
 
-def test_nodes_without_clamped_ones_tell_no_length(config, folder):
+def test_another_speed_is_refused_and_nodes_without_clamped_ones_tell_no_length(folder, discrete, config):
+    omega = 2 * np.pi * discrete.frequency[0] * 0.4
+    imported(folder, omega_max=1.0009 * omega)
+    with pytest.raises(BadInput, match=r"is 0.44 of the blade's first .*f_omega_max = 0.4 must be that"):
+        imported(folder, omega_max=1.1 * omega)
     nodes = pd.read_csv(folder / "nodes.csv")
     nodes[nodes.clamped == 0].drop(columns="clamped").to_csv(folder / "nodes.csv", index=False)
     given = imported(folder)
@@ -101,13 +105,6 @@ def test_nodes_without_clamped_ones_tell_no_length(config, folder):
     config["blade"]["length"] = 0.1
     with pytest.raises(BadInput, match=r"blade.length = 0.1: must be that of the blade in .*/matrices"):
         build(of_folder(config, folder))
-
-
-def test_a_speed_that_is_not_the_configs_is_refused(folder, discrete):
-    omega = 2 * np.pi * discrete.frequency[0] * 0.4
-    imported(folder, omega_max=1.0009 * omega)
-    with pytest.raises(BadInput, match=r"is 0.44 of the blade's first .*f_omega_max = 0.4 must be that"):
-        imported(folder, omega_max=1.1 * omega)
 
 
 def test_a_blade_is_of_its_files_not_of_the_material(config, folder):

@@ -49,7 +49,7 @@ def test_linear_elements_get_the_middles_of_their_edges(make_mesh, kind, tmp_pat
     np.testing.assert_allclose(content.points[content.cells], mesh.points[mesh.cells], atol=1e-15)
 
 
-def test_a_deck_is_read_as_abaqus_reads_it(tmp_path):
+def test_a_deck_is_read_as_abaqus_reads_it_and_an_included_file_is_part_of_the_blade(tmp_path):
     (tmp_path / "the nodes.inp").write_text("1, 0, 0, 0,\n2, 1.D0,\n3, , 1\n")
     (tmp_path / "m.inp").write_text(
         "*PART, NAME=Blade\n*Node, nset=Early,\n input=the nodes.inp\n** comment\n  *NODE\n4, 0, 0, 1\n"
@@ -70,9 +70,6 @@ def test_a_deck_is_read_as_abaqus_reads_it(tmp_path):
         "Side": [0, 1, 3],
     }
     assert content.volume_sets == ["Eall", "_S_S2"]
-
-
-def test_an_included_file_is_part_of_the_blade(tmp_path):
     deck, nodes = tmp_path / "m.inp", tmp_path / "n.inp"
     deck.write_text("*INCLUDE, INPUT=n.inp\n")
     nodes.write_text("*NODE\n1, 0, 0, 0\n")

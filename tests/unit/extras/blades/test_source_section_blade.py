@@ -83,6 +83,9 @@ def test_a_twisted_plate_is_that_of_its_formula(read):
     assert imported.blade.length == pytest.approx(LENGTH, rel=1e-9)
     assert imported.blade.tip_cone == pytest.approx(0, abs=1e-9)
     assert all(section.cut == (0, 0) for section in imported.sections)
+    mesh = read(cartesian(twisted_plate), Frame(rotation="x", downstream="x")).blade.mesh
+    leading, trailing = mesh.mesh.points[mesh.interface[[0, -1]]]
+    assert leading[0] > trailing[0]  # x of the blade's frame points against the rotation vector
 
 
 def test_sharp_edges_are_cut_where_they_become_too_thin(read):
@@ -93,12 +96,6 @@ def test_sharp_edges_are_cut_where_they_become_too_thin(read):
         assert section.cut == pytest.approx((start * CHORD, start * CHORD), rel=0.05)
         assert section.thickness == pytest.approx(THICKNESS, rel=1e-3)
     assert imported.volume == pytest.approx((2 / 3 - lost) * CHORD * THICKNESS * LENGTH, rel=2e-3)
-
-
-def test_a_blade_whose_flow_is_along_its_rotation_vector_has_its_leading_edge_there(read):
-    mesh = read(cartesian(twisted_plate), Frame(rotation="x", downstream="x")).blade.mesh
-    leading, trailing = mesh.mesh.points[mesh.interface[[0, -1]]]
-    assert leading[0] > trailing[0]  # x of the blade's frame points against the rotation vector
 
 
 def raised(table, section, z):
@@ -124,7 +121,7 @@ def test_sections_that_make_no_blade_are_refused_with_file_and_culprit(read, cha
     assert "blade.csv: " in str(caught.value)
 
 
-def test_a_blade_of_sections_is_of_its_table_and_its_mesh(blade_config, tmp_path):
+def test_a_blade_is_built_from_its_sections_and_is_of_its_table_and_its_mesh(blade_config, tmp_path, read):
     path = tmp_path / "blade.csv"
     cartesian(twisted_plate).to_csv(path, index=False)
     config = {"blade": blade_config | {"source": {"file": str(path)}}, "reduction": {}}
@@ -135,12 +132,8 @@ def test_a_blade_of_sections_is_of_its_table_and_its_mesh(blade_config, tmp_path
     assert made_from(config) != first
     path.write_text(path.read_text() + "# another\n")
     assert len({first, made_from(config)}) == 2
-
-
-def test_a_blade_is_built_from_its_sections(blade_config, tmp_path, read):
-    imported = read(cartesian(twisted_plate), counts=blade_config["mesh"])
-    source = {"file": str(tmp_path / "blade.csv")}
-    built = build({"blade": blade_config | {"source": source}, "reduction": REDUCTION})
+    imported = read(cartesian(twisted_plate), counts=COUNTS)
+    built = build({"blade": config["blade"], "reduction": REDUCTION})
     np.testing.assert_array_equal(built.mesh.mesh.points, imported.blade.mesh.mesh.points)
     assert built.accuracy.relative_error.abs()[0] < 1e-3
 
@@ -174,7 +167,7 @@ def table(tmp_path):
     return sections
 
 
-def test_stations_are_read_with_their_lines(table):
+def test_stations_are_read_with_their_lines_and_as_well_after_a_byte_order_mark_and_with_spaces(table):
     hub, tip = table(COMMAS)
     assert (hub.name, tip.name) == ("hub end", "tip")
     assert hub.lines.tolist() == [3, 4, 5, 7, 8]
@@ -183,6 +176,10 @@ def test_stations_are_read_with_their_lines(table):
     assert x == pytest.approx(0.02)
     assert np.hypot(y, z) == pytest.approx(0.405)
     assert np.arctan2(y, z) == pytest.approx(0.02)  # the blade turns about -x, angles about x
+    for name in ("blade.txt", "BLADE.DAT"):
+        of_spaces = table(b"\xef\xbb\xbf" + SPACES.encode(), name=name)
+        for ours, theirs in zip((hub, tip), of_spaces, strict=True):
+            np.testing.assert_array_equal(ours.points, theirs.points)
 
 
 @pytest.mark.parametrize(
@@ -200,12 +197,6 @@ def test_angles_turn_by_the_right_hand_about_the_positive_axis(table, frame, sig
         rows = [f"{name},{','.join(map(str, row))}\n" for name, row in zip("aaaaabbbbb", of, strict=True)]
         found.append(table("section,z,r,theta1,theta2\n" + "".join(rows), unit, frame=own)[0].points)
     np.testing.assert_allclose(*found, atol=1e-12)
-
-
-@pytest.mark.parametrize("name", ["blade.txt", "BLADE.DAT"])
-def test_white_space_and_byte_order_marks_do(table, name):
-    for ours, theirs in zip(table(COMMAS), table(b"\xef\xbb\xbf" + SPACES.encode(), name=name), strict=True):
-        np.testing.assert_array_equal(ours.points, theirs.points)
 
 
 @pytest.mark.parametrize(

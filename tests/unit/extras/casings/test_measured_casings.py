@@ -23,16 +23,13 @@ def table(tmp_path):
     return written
 
 
-def test_the_gap_of_a_table_is_that_of_the_casing(table):
+def test_the_gap_of_a_table_is_that_of_the_casing_also_when_it_turns_elsewhere_and_is_closed(table):
     casing = casing_spec("own", table(ROWS), length_scale=3.0)
     np.testing.assert_allclose(gap(casing, 1e-4, np.deg2rad(ANGLE)), 1e-4 + GAP * 1e-3, atol=1e-15)
     assert casing.interference == pytest.approx(0.2e-3)
     assert casing.start_angle == pytest.approx(np.pi / 3)
     assert nodal_diameters(table(ROWS)) == [3]
     assert excites(table(ROWS), 6) > excites(table(ROWS), 4)
-
-
-def test_a_table_may_turn_elsewhere_and_be_closed(table):
     there = casing_spec("own", table(ROWS))
     cells = [row.split(",") for row in ROWS]
     turned = [*cells[30:], *([str(360 + int(angle)), of_gap] for angle, of_gap in cells[:31])]
@@ -59,12 +56,18 @@ def test_a_table_that_is_none_is_refused_with_its_key(config, table, change, sai
     assert said in str(error.value)
 
 
-def test_a_measured_gap_must_not_go_through_the_layer(config, table):
+def test_a_measured_gap_must_not_go_through_the_layer_and_an_edited_table_is_another_run(config, table):
     config["casings"]["own"] = table(ROWS)
     validate(config)
     config["casings"]["own"] = table([f"{a},{40 * g!r}" for a, g in zip(ANGLE, GAP.tolist(), strict=True)])
     with pytest.raises(ConfigError, match="layer_thickness"):
         validate(config)
+    config["casings"]["own"] = table(ROWS)
+    case = CoatingCase("own", 1.1, 0.5, 0.0)
+    before = run_spec(config, case, 0.2)
+    assert run_spec(config, case, 0.2) == before
+    config["casings"]["own"] = table([*ROWS[:-1], "355,-0.1999"])
+    assert run_spec(config, case, 0.2) != before
 
 
 @pytest.mark.parametrize(("beside", "clearance"), [(False, 0.0), (True, 1.5e-4)])
@@ -86,12 +89,3 @@ def test_a_gap_above_zero_touches_by_an_interference(config, table, beside, clea
     (entry if beside else coating)["interference"] = 1e-3 if beside else [1e-3]
     with pytest.raises(ConfigError, match="touches all around"):
         validate(config)
-
-
-def test_an_edited_table_is_another_run(config, table):
-    config["casings"]["own"] = table(ROWS)
-    case = CoatingCase("own", 1.1, 0.5, 0.0)
-    before = run_spec(config, case, 0.2)
-    assert run_spec(config, case, 0.2) == before
-    config["casings"]["own"] = table([*ROWS[:-1], "355,-0.1999"])
-    assert run_spec(config, case, 0.2) != before

@@ -12,12 +12,8 @@ def make_point():
     """A point that was run at all speeds; its response on each order is a hat, C1² = 1 + 3 f_omega²."""
 
     def make(E, K, Y4=1e-3, Y6=5e-4, f4=0.32, f6=0.19, theta=0.0, divergent=0.0, depth=1e-4):
-        hats = [
-            height * np.clip(1 - np.abs(F_OMEGA - peak) / 0.05, 0.01, None)
-            for peak, height in ((f4, Y4), (f6, Y6))
-        ]
-        uniform = np.zeros(F_OMEGA.size, dtype=bool)
-        uniform[::4] = True
+        hats = [Y * np.clip(1 - np.abs(F_OMEGA - f) / 0.05, 0.01, None) for f, Y in ((f4, Y4), (f6, Y6))]
+        uniform = np.arange(F_OMEGA.size) % 4 == 0
         measures = {name: np.ones(F_OMEGA.size) for name in MEASURES} | {
             "peak": np.max(hats, axis=0),
             "deepest_wear": np.full(F_OMEGA.size, depth),

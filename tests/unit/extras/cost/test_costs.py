@@ -32,7 +32,7 @@ def benchmarks(tmp_path):
     return tmp_path
 
 
-def test_a_row_a_job(benchmarks):
+def test_a_row_a_job_and_bars_in_minutes_and_megabytes(benchmarks):
     costs = table(benchmarks).set_index(["rule", "job"])
     assert {*costs.index.names, *costs.columns} == {*COLUMNS}
     rub = costs.loc[("coating", "2nd_E2_K0.5_theta0.15")]
@@ -42,9 +42,6 @@ def test_a_row_a_job(benchmarks):
     assert "somebody_elses" in set(table(benchmarks, ["somebody_elses"]).stage)
     (benchmarks / "blade.tsv").write_text("s\th:m:s\tmax")
     assert sorted(table(benchmarks).rule) == ["coating", "coating", "fig05_casing", "fig08_spectrum_soft"]
-
-
-def test_bars_are_minutes_and_megabytes():
     of_stages = {"jobs": [1, 57], "cpu_s": [60.0, 540.0], "share": [0.1, 0.9], "memory_mb": [480.0, 190.0]}
     time, memory = cost(pd.DataFrame(of_stages, pd.Index(["blade", "rubs"], name="stage"))).axes
     assert [bar.get_width() for bar in time.patches] == [1.0, 9.0]

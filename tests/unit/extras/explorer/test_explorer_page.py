@@ -63,18 +63,15 @@ def test_figures_are_those_of_the_tables_and_come_back_from_the_page(coating, ve
     packed = parts(coating, verdicts, runs, 10, max_frequency=2.5)
     data = {name: gzip.decompress(base64.b64decode(text)) for name, text in packed.items()}
     numbers = json.loads(data["figures"])
-
     steps = np.cumsum(np.frombuffer(data["wear"], np.uint8).reshape(3, -1), axis=1, dtype=np.uint8)
     deepest = np.array(numbers["deepest"])[:, None]
     assert (np.abs(steps / 255 * deepest - 1e3 * coating.wear) <= deepest / 509).all()
-
     low, high = numbers["spectrum_range"]
     codes = np.frombuffer(data["spectrum"], np.uint8)[:252]  # to order 25 at the first speed, and a cell
     amplitude = low * (high / low) ** ((codes - 1.0) / 254)
     shown = 1e3 * np.maximum(coating.spectrum_amplitude[0, :252], AMPLITUDE_FLOOR)
     np.testing.assert_allclose(amplitude, shown, rtol=0.03)
     assert not np.frombuffer(data["spectrum"], np.uint8)[-132:].any()  # the last run has no spectrum
-
     low, high = numbers["growth_range"]
     codes = np.frombuffer(data["growth"], "<u2").reshape(3, 50)
     amplitude = np.where(codes, low * (high / low) ** ((codes - 1.0) / 65534), np.nan)

@@ -28,7 +28,7 @@ def test_speed_steps_follow_a_constant_rate(spec, change, start, end):
     assert seconds == pytest.approx(0.004 / rate, abs=1 / N / 192.0 / 0.1)  # to an element
 
 
-def test_a_sweep_over_no_range_is_the_run_at_that_speed(blade, spec):
+def test_a_sweep_over_no_range_is_the_run_at_that_speed_and_a_tip_out_of_bounds_ends_it(blade, spec, change):
     run, sweep = simulate(blade, spec), simulate_sweep(blade, SweepSpec(spec, spec.f_omega, 1.0, 1e-3))
     np.testing.assert_array_equal(sweep.radial_displacement, run.radial_displacement)
     np.testing.assert_array_equal(sweep.wear, run.wear)
@@ -38,17 +38,15 @@ def test_a_sweep_over_no_range_is_the_run_at_that_speed(blade, spec):
     assert sweep.residual == run.energy.residual
     assert sweep.f_omega == pytest.approx(spec.f_omega)
     assert sweep.time == pytest.approx((np.arange(2) + 0.5) / (192.0 * spec.f_omega))
+    run = change(spec, f_omega=0.25, revolutions=0, displacement_limit=3e-4)
+    sweep = simulate_sweep(blade, SweepSpec(run, 0.35, 1.0, 1e-3))
+    assert sweep.status == "unbounded"
+    assert np.isnan(sweep.revolution_amplitude[-1])
+    assert np.isfinite(sweep.residual)
 
 
-RIGID = {"E": np.inf, "K": np.inf, "theta": 0.0, "max_time_step": 2e-6}
-
-
-@pytest.mark.parametrize(
-    ("values", "compared"),
-    [({}, 3 * N), ({"scheme": "central_differences", "max_time_step": 5e-6}, 3 * N), (RIGID, 300)],
-)
-def test_a_change_of_speed_by_nothing_changes_nothing(blade, spec, change, values, compared):
-    """Against the rigid casing any two runs part ways soon after they differ at all."""
+@pytest.mark.parametrize("values", [{}, {"scheme": "central_differences", "max_time_step": 5e-6}])
+def test_a_change_of_speed_by_nothing_changes_nothing(blade, spec, change, values):
     run = change(spec, revolutions=3, **values)
     whole, little = simulate(blade, run), 1e-12
     rate = little * run.f_omega * 192.0 / 2  # in two revolutions
@@ -56,7 +54,7 @@ def test_a_change_of_speed_by_nothing_changes_nothing(blade, spec, change, value
     sweep = simulate_sweep(blade, passage)
     assert whole.n_contact_steps > 100
     assert sweep.f_omega.size == 3
-    worst = np.abs(sweep.radial_displacement - whole.radial_displacement)[:compared].max()
+    worst = np.abs(sweep.radial_displacement - whole.radial_displacement).max()
     assert worst < 1e-6 * np.abs(whole.radial_displacement).max()
     assert sweep.residual < 2 * whole.energy.residual
 
@@ -85,14 +83,6 @@ def test_free_motion_is_that_of_the_equation_with_stiffness_in_time(blade, spec,
         errors.append(np.abs(np.interp(x, turned, tip) - sweep.radial_displacement)[within].max() / 1e-3)
     assert errors[2] < 0.01
     assert errors[2] < 0.5 * errors[0]
-
-
-def test_a_tip_out_of_bounds_ends_the_sweep(blade, spec, change):
-    run = change(spec, f_omega=0.25, revolutions=0, displacement_limit=3e-4)
-    sweep = simulate_sweep(blade, SweepSpec(run, 0.35, 1.0, 1e-3))
-    assert sweep.status == "unbounded"
-    assert np.isnan(sweep.revolution_amplitude[-1])
-    assert np.isfinite(sweep.residual)
 
 
 def test_the_ledger_closes_though_steps_change_their_angle(blade, spec, change):

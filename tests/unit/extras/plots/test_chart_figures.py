@@ -32,8 +32,8 @@ def chart():
 def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, draws, quantity):
     panel, *_ = draws(chart_map(chart, quantity, 2e8)).axes
     dots, _, ridge = panel.lines
-    assert sorted(zip(*dots.get_data(), strict=True)) == [(0.11, 0.5), (0.5, 0.5), (1.1, 0.5)]
-    np.testing.assert_array_equal(ridge.get_data(), [[0.11, 0.5, 1.1], [0.5, 0.5, 0.5]])
+    for line in (dots, ridge):
+        assert sorted(zip(*line.get_data(), strict=True)) == [(0.11, 0.5), (0.5, 0.5), (1.1, 0.5)]
 
 
 def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):

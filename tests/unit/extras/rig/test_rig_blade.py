@@ -29,7 +29,7 @@ def last(rig, **fineness):
     return simulate_passes(rig, **fineness).iloc[-1]
 
 
-def test_theta_turns_the_force_and_the_impulse_is_over_the_coated_part():
+def test_theta_turns_the_force_impulses_are_over_the_coated_part_and_viscosity_resists_speed():
     whole, turned, part = last(RIG), last(replace(RIG, theta=0.3)), last(replace(RIG, coated=0.1))
     assert turned.normal_force == pytest.approx(math.cos(0.3) * whole.normal_force)
     by_wear = whole.tangential_force  # θ has no part in it
@@ -37,6 +37,10 @@ def test_theta_turns_the_force_and_the_impulse_is_over_the_coated_part():
     assert whole.normal_impulse == pytest.approx(whole.normal_force / 125.0)
     assert part.normal_impulse == pytest.approx(0.1 * whole.normal_impulse)
     assert part.pass_energy == pytest.approx(0.1 * whole.pass_energy)
+    viscous = replace(RIG, edge_drop=4e-5, law=described_law("viscoplastic", {"viscosity": 1e4}))
+    slow, fast = (last(replace(viscous, speed=speed)).normal_force for speed in (1e-3, 125.0))
+    assert slow == pytest.approx(last(replace(RIG, edge_drop=4e-5)).normal_force, rel=1e-3)
+    assert fast > 1.02 * slow
 
 
 def test_a_constant_feed_gives_a_constant_force_without_lasting_hardening_and_warms_what_heats():
@@ -64,13 +68,6 @@ def test_a_rounded_tip_converges_with_the_elements_and_its_energy_to_second_orde
     coarse, fine = (last(rounded, steps=n).energy_residual for n in (8, 32))
     assert fine < coarse / 8
     assert coarse < 1e-3
-
-
-def test_a_viscous_coating_resists_a_faster_tip_more():
-    viscous = replace(RIG, edge_drop=4e-5, law=described_law("viscoplastic", {"viscosity": 1e4}))
-    slow, fast = (last(replace(viscous, speed=speed)).normal_force for speed in (1e-3, 125.0))
-    assert slow == pytest.approx(last(replace(RIG, edge_drop=4e-5)).normal_force, rel=1e-3)
-    assert fast > 1.02 * slow
 
 
 DAMPING = 2.3e-3

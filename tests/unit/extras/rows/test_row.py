@@ -46,7 +46,7 @@ def test_a_row_of_one_is_the_single_run_to_the_last_bit(blade, spec, change, cha
     assert (row.status, row.message, row.unbounded) == (alone.status, alone.message, ())
 
 
-def test_a_blade_that_reaches_nothing_leaves_the_other_alone(blade, spec):
+def test_a_blade_that_reaches_nothing_leaves_the_other_alone_and_one_that_would_overlap_is_held(blade, spec):
     row, alone = simulate_row(blade, spec, Row.even(2, length=[-5e-3, 0.0])), simulate(blade, spec)
     assert not np.any(row.blades[0].radial_displacement)
     assert row.worn_volume[0] == 0 < row.worn_volume[1]
@@ -55,6 +55,12 @@ def test_a_blade_that_reaches_nothing_leaves_the_other_alone(blade, spec):
     reaching = row.blades[1]
     np.testing.assert_allclose(reaching.radial_displacement, alone.radial_displacement, atol=within)
     np.testing.assert_allclose(reaching.wear, np.roll(alone.wear, half, axis=1), atol=1e-12)
+    row = simulate_row(blade, spec, Row.even(4))
+    quarter = spec.coating.n_elements // 4
+    for number, each in enumerate(row.blades):
+        held = quarter // 4 if number % 2 else 1  # else the gap closes on it within the first passages
+        assert not np.any(each.radial_displacement[:held])
+        assert each.status == "completed"
 
 
 def test_neither_order_nor_numbering_changes_anything(blade, spec):
@@ -146,15 +152,6 @@ def test_the_ledger_closes_with_the_disk_in_it_and_the_volumes_sum_up(blade, spe
     assert row.energy.wear == pytest.approx(sum(each.energy.wear for each in row.blades))
     volume = element_area(blade, spec) @ row.wear.sum(axis=1)
     np.testing.assert_allclose(row.worn_volume.sum(), volume, rtol=1e-9)
-
-
-def test_a_blade_that_would_overlap_is_held_until_the_gap_is_open(blade, spec):
-    row = simulate_row(blade, spec, Row.even(4))
-    quarter = spec.coating.n_elements // 4
-    for number, each in enumerate(row.blades):
-        held = quarter // 4 if number % 2 else 1  # else the gap closes on it within the first passages
-        assert not np.any(each.radial_displacement[:held])
-        assert each.status == "completed"
 
 
 def test_a_run_ends_for_all_when_one_leaves_the_limit_and_is_the_same_until_then(blade, spec):

@@ -92,7 +92,6 @@ def drawn_spec(rng, law):
         displacement_limit=10 ** rng.uniform(-4, 0),
         initial_displacement=float(rng.choice([0.0, 1e-4])),
         start_angle=rng.uniform(-7, 7),
-        damping_ratio=10 ** rng.uniform(-4, -1),
         f_omega=rng.uniform(0.05, 0.4),
         scheme=str(rng.choice(["exponential", "exponential", "central_differences"])),
         steps_per_element=int(rng.integers(1, 40)),

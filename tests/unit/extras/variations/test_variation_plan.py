@@ -178,9 +178,6 @@ def test_each_set_is_laid_over_what_is_common_and_that_over_a_file(study, asked,
     assert {config["contact"]["damping_ratio"] for config in sets.values()} == {2e-3}
     with pytest.raises(ConfigError, match=r"plan.yaml:1: file = .*: cannot be read"):
         sets_of(asked(f"file: none.yaml\n{text}"))
-
-
-def test_every_problem_is_reported_with_its_set(study, asked):
     config = asked("sets: {a: {contact: {damping_ratio: 2}}, c: {contact: {damping: 1}}}\n")
     with pytest.raises(ConfigError) as caught:
         sets_of(config)

@@ -64,6 +64,14 @@ def test_a_whole_file_that_is_not_the_listed_one_is_damaged_and_a_missing_one_lo
     hdf5.write(results / RUN, {}, {"run_key": "other"})
     (results / POINT).unlink()
     assert examine(results) == ([results / RUN] * 3, [results / POINT], [])
+    path = results / "maps" / "2nd.h5"
+    assert invocation.damage(path) is None
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+    assert str(path) in invocation.damage(path)
+    path.unlink()
+    assert invocation.damage(path) is None
 
 
 def test_what_the_system_refuses_is_not_damaged(results, monkeypatch):
@@ -78,14 +86,3 @@ def test_what_the_system_refuses_is_not_damaged(results, monkeypatch):
     damaged, lost, unreadable = examine(results)
     assert (damaged, lost) == ([], [])
     assert all(any(str(results / name) in line for line in unreadable) for name in KEPT)
-
-
-def test_damage_of_an_output_plans_its_job_again(results):
-    path = results / "maps" / "2nd.h5"
-    assert invocation.damage(path) is None
-    content = bytearray(path.read_bytes())
-    content[len(content) // 2] ^= 1
-    path.write_bytes(content)
-    assert str(path) in invocation.damage(path)
-    path.unlink()
-    assert invocation.damage(path) is None
