@@ -6,20 +6,17 @@ import bladerub as br
 from bladerub.blade.cache import first_frequency
 
 
-@pytest.mark.parametrize(
-    ("arguments", "name"),
-    [
+def test_bad_argument_is_named_with_value_and_what_is_right(study):
+    for arguments, name in (
         ({"casing": "2dn"}, "casing"),
         ({"friction": 0.1, "theta": 0.1}, "friction"),
         ({"revolutions": 2.5}, "revolutions"),
-    ],
-)
-def test_bad_argument_is_named_with_value_and_what_is_right(study, arguments, name):
-    given = {"casing": "2nd", "E": 2, "K": 0.5, "f_omega": 0.19} | arguments
-    with pytest.raises(br.InputError) as caught:
-        study.run(given.pop("casing"), **given)
-    assert caught.value.name == name
-    assert str(caught.value) == f"{name} = {caught.value.value}: {caught.value.right}"
+    ):
+        given = {"casing": "2nd", "E": 2, "K": 0.5, "f_omega": 0.19} | arguments
+        with pytest.raises(br.InputError) as caught:
+            study.run(given.pop("casing"), **given)
+        assert caught.value.name == name
+        assert str(caught.value) == f"{name} = {caught.value.value}: {caught.value.right}"
 
 
 def test_a_wrong_value_is_named_with_file_line_and_key_and_a_replaced_one_leaves_the_study_as_it_was(

@@ -24,12 +24,12 @@ from bladerub.extras.blades.origin import MatrixSource, read
 from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
 
-FIVE_SPEEDS = REDUCTION | {"accuracy_speeds": 5}
-
 
 @pytest.fixture
 def config():
-    return copy.deepcopy({"blade": TWISTED | {"tip_cone": 9.0}, "reduction": FIVE_SPEEDS})
+    return copy.deepcopy(
+        {"blade": TWISTED | {"tip_cone": 9.0}, "reduction": REDUCTION | {"accuracy_speeds": 5}}
+    )
 
 
 def imported(folder, **source):
@@ -52,8 +52,7 @@ def test_the_blade_comes_back_from_its_matrices(config, discrete, tmp_path):
     for name in ("root", "tip", "interface"):
         np.testing.assert_array_equal(getattr(theirs.mesh, name), getattr(ours.mesh, name))
     for name in ("node_position", "radial_direction", "tangential_direction"):
-        a, b = (getattr(blade.reduced, name) for blade in (ours, theirs))
-        np.testing.assert_allclose(b, a, atol=1e-12)
+        np.testing.assert_allclose(getattr(theirs.reduced, name), getattr(ours.reduced, name), atol=1e-12)
     assert theirs.mesh.mesh.cells.shape == (0, 20)
     assert theirs.static_displacement.shape == (0, len(ours.mesh.mesh.points), 3)
 
@@ -173,17 +172,11 @@ def test_broken_folders_are_refused_with_file_and_culprit(folder, change, said):
     assert str(caught.value).startswith(str(folder))
 
 
-@pytest.mark.parametrize(
-    ("source", "said"),
-    [
-        ({}, "file: missing; must be given, or matrices in its place"),
-        ({"matrices": "m", "root_set": "R"}, "root_set = R: must not be given beside matrices"),
-        ({"file": "blade.inp", "matrix_units": "SI"}, "matrix_units = SI: must not be given beside file"),
-    ],
-)
-def test_keys_that_do_not_go_together_are_refused(source, said):
-    with pytest.raises(ValueError, match=said):
-        read(source)
+def test_keys_that_do_not_go_together_are_refused():
+    with pytest.raises(ValueError, match="file: missing; must be given, or matrices in its place"):
+        read({})
+    with pytest.raises(ValueError, match="root_set = R: must not be given beside matrices"):
+        read({"matrices": "m", "root_set": "R"})
 
 
 def test_one_negative_eigenvalue_among_many_is_found():
@@ -223,17 +216,16 @@ def of_nodes(order):
     return lambda n: (3 * order(np.arange(n))[:, None] + np.arange(3)).ravel()
 
 
-def exchange(nodes):
-    nodes[[-2, -9]] = nodes[[-9, -2]]
-    return nodes
-
-
 @pytest.mark.parametrize(
     ("order", "names", "said"),
     [
         (lambda n: np.arange(3 * n).reshape(n, 3).T.ravel(), ALL, "mass.npz: .* all x, then all y"),
         (of_nodes(np.random.default_rng(0).permutation), ALL, "nodes.csv: must have the order of the mat"),
-        (of_nodes(exchange), ALL[3:], r"stiffness_max.npz: differs from .* at \d+ nodes \(rows"),
+        (
+            of_nodes(lambda nodes: np.roll(nodes, 3)),
+            ALL[3:],
+            r"stiffness_max.npz: differs from .* at \d+ nodes \(rows",
+        ),
     ],
 )
 def test_matrices_in_another_order_are_refused(folder, order, names, said):

@@ -62,13 +62,8 @@ def test_a_deck_is_read_as_abaqus_reads_it_and_an_included_file_is_part_of_the_b
     content = read(tmp_path / "m.inp")
     np.testing.assert_array_equal(content.points[:4], [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     assert content.cells[:, :4].tolist() == [[0, 1, 2, 3]]
-    assert sets(content) == {
-        "Early": [0, 1, 2],
-        "Some": [0, 2, 3],
-        "Some more": [0, 1, 2, 3],
-        "OfElements": [0, 1, 2, 3],
-        "Side": [0, 1, 3],
-    }
+    expected = {"Early": [0, 1, 2], "Some": [0, 2, 3], "Side": [0, 1, 3]}
+    assert sets(content) == expected | {key: [0, 1, 2, 3] for key in ("Some more", "OfElements")}
     assert content.volume_sets == ["Eall", "_S_S2"]
     deck, nodes = tmp_path / "m.inp", tmp_path / "n.inp"
     deck.write_text("*INCLUDE, INPUT=n.inp\n")
@@ -132,9 +127,8 @@ def test_physical_groups_of_gmsh_are_kept_apart_by_dimension(tmp_path):
 TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n6, 0, 1, 1\n"
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "said"),
-    [
+def test_what_is_no_usable_mesh_is_told(tmp_path):
+    for name, text, said in (
         ("m.step", "solid", "must be a mesh file that ends in .inp, .msh, .vtu"),
         ("m.msh", "** cgx\n*NODE, NSET=Nall\n", r"begins with \*NODE, .*: rename it to m.inp"),
         ("m.vtu", "<VTKFile>", "does not end with </VTKFile>"),
@@ -147,51 +141,33 @@ TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1
         ("m.inp", TETRAHEDRON + "*INSTANCE, PART=A\n0, 5, 0\n", r"has \*INSTANCE, which moves its part"),
         ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=m.inp\n", "line 8: .* includes itself"),
         ("m.msh", GROUPS.format(line="TIP"), "has several physical groups TIP"),
-    ],
-)
-def test_what_is_no_usable_mesh_is_told(name, text, said, tmp_path):
-    (tmp_path / name).write_text(text)
-    with pytest.raises(ValueError, match=said):
-        read(tmp_path / name)
+    ):
+        (tmp_path / name).write_text(text)
+        with pytest.raises(ValueError, match=said):
+            read(tmp_path / name)
 
 
 STEEL = {"young_modulus": 2.1e11, "poisson_ratio": 0.3, "density": 7850.0}
 DECK = "*HEADING\nblade\n*MATERIAL, NAME={}\n*ELASTIC\n{}\n*DENSITY\n{}\n"
 
 
-@pytest.mark.parametrize(
-    ("unit", "elastic", "density"),
-    [
-        ("mm", "210000, 0.3", "7.85e-9"),
-        ("m", "2.1e11, .3,", "7850."),
-        ("ft", "4.385941188e9, 0.3", "15.23120"),
-    ],
-)
-def test_units_go_with_that_of_length(unit, elastic, density, tmp_path):
-    (tmp_path / "m.inp").write_text(DECK.format("Steel", elastic, density))
-    assert deck_material.read(tmp_path / "m.inp", unit) == pytest.approx(STEEL, rel=1e-4)
-
-
-def test_the_section_tells_which_material_is_the_blades_and_a_deck_may_have_none(tmp_path):
+def test_the_material_of_a_deck_is_that_of_its_section_in_the_unit_of_length_and_must_be_isotropic(tmp_path):
+    for unit, elastic, density in (("m", "2.1e11, .3,", "7850."), ("ft", "4.385941188e9, 0.3", "15.23120")):
+        (tmp_path / "m.inp").write_text(DECK.format("Steel", elastic, density))
+        assert deck_material.read(tmp_path / "m.inp", unit) == pytest.approx(STEEL, rel=1e-4)
     other = DECK.format("Nickel", "205000, 0.31", "8.2e-9")
     section = '*Solid Section, elset=E, material="steel"\n'
     (tmp_path / "m.inp").write_text(other + DECK.format("Steel", "** MPa\n210000, 0.3", "7.85e-9") + section)
     assert deck_material.read(tmp_path / "m.inp", "mm") == pytest.approx(STEEL)
     (tmp_path / "m.inp").write_text("*NODE\n1, 0, 0, 0\n")
     assert deck_material.read(tmp_path / "m.inp", "mm") is None
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
+    for text, said in (
         (DECK.format("A", "210000, 0.3", "7.85e-9") + DECK.format("B", "1e5, 0.3", "5e-9"), "materials A, B"),
         ("*MATERIAL, NAME=A\n*ELASTIC\n210000, 0.3\n", "A has no .DENSITY"),
         (DECK.format("A", "210000,0, 0,3", "7.85e-9"), "ELASTIC of A is 210000,0, 0,3, must be 2 numbers"),
         (DECK.format("A", "210, 0.3", "7.85e-6"), "Young modulus of 210 is 2.1e.08 Pa with the unit mm"),
         (DECK.format("A", "1, 2", "3").replace("IC", "IC, TYPE=ENGINEERING CONSTANTS"), "not isotr"),
-    ],
-)
-def test_what_is_not_one_isotropic_material_is_told(text, said, tmp_path):
-    (tmp_path / "m.inp").write_text(text)
-    with pytest.raises(ValueError, match=said):
-        deck_material.read(tmp_path / "m.inp", "mm")
+    ):
+        (tmp_path / "m.inp").write_text(text)
+        with pytest.raises(ValueError, match=said):
+            deck_material.read(tmp_path / "m.inp", "mm")

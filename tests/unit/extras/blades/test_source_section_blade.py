@@ -182,31 +182,22 @@ def test_stations_are_read_with_their_lines_and_as_well_after_a_byte_order_mark_
             np.testing.assert_array_equal(ours.points, theirs.points)
 
 
-@pytest.mark.parametrize(
-    ("frame", "sign_of_z", "sign_of_theta"),
-    [
-        (Frame("cm", rotation="z", downstream="-z", radial="x"), -1, 1),
-        (Frame("cm", rotation="-z", downstream="z", radial="-y"), 1, -1),
-    ],
-)
-def test_angles_turn_by_the_right_hand_about_the_positive_axis(table, frame, sign_of_z, sign_of_theta):
-    stations = np.array([(z, 40.0 + z, 0.01 * z, 0.03 * z) for z in range(5)] * 2)
-    turned = stations * [sign_of_z, 1, *2 * [np.rad2deg(-sign_of_theta)]]
-    found = []
-    for of, unit, own in ((stations, "rad", CM), (turned, "deg", frame)):
-        rows = [f"{name},{','.join(map(str, row))}\n" for name, row in zip("aaaaabbbbb", of, strict=True)]
-        found.append(table("section,z,r,theta1,theta2\n" + "".join(rows), unit, frame=own)[0].points)
-    np.testing.assert_allclose(*found, atol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
+def test_angles_turn_by_the_right_hand_about_the_positive_axis_and_what_is_no_table_is_refused(table):
+    stations, found = np.array([(z, 40.0 + z, 0.01 * z, 0.03 * z) for z in range(5)] * 2), []
+    one, other = Frame("cm", rotation="z", downstream="-z", radial="x"), Frame("cm", "-z", "z", "-y")
+    for factors, unit, frame in (
+        ([1, 1, 1, 1], "rad", CM),
+        ([-1, 1, *2 * [np.rad2deg(-1)]], "deg", one),
+        ([1, 1, *2 * [np.rad2deg(1)]], "deg", other),
+    ):
+        rows = zip("aaaaabbbbb", stations * factors, strict=True)
+        text = "".join(f"{name},{','.join(map(str, row))}\n" for name, row in rows)
+        found.append(table("section,z,r,theta1,theta2\n" + text, unit, frame=frame)[0].points)
+    np.testing.assert_allclose(found, found[:1] * 3, atol=1e-12)
+    for text, said in (
         (COMMAS.replace("2, 40.5,", "2, ,"), "line 5: r = nothing, must be a finite number"),
         (COMMAS + COMMAS[COMMAS.index("hub") : COMMAS.index("tip")], "line 14: section hub end comes back"),
         (COMMAS.replace("0.01", "10"), "section hub end .* over 20 rad, .* are they in rad"),
-    ],
-)
-def test_what_is_no_table_is_refused_with_line_or_section(table, text, said):
-    with pytest.raises(ValueError, match=said):
-        table(text)
+    ):
+        with pytest.raises(ValueError, match=said):
+            table(text)

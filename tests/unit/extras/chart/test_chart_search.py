@@ -258,44 +258,36 @@ def test_a_change_of_mind_costs_no_point_and_no_table_is_made_of_a_damaged_one(b
         list(read_points([manifest]))
 
 
-class TestDeterminants:
-    @pytest.fixture
-    def digest(self, few_speeds):
-        few_speeds["chart"]["speeds"] |= {"dense_stop": 0.24, "dense_step": 0.04}
-        return lambda case=CASE: determinants(few_speeds, case, chart_speeds(few_speeds))
+def test_settings_coatings_and_sources_that_shape_a_point_count_for_its_key(few_speeds, monkeypatch):
+    few_speeds["chart"]["speeds"] |= {"dense_stop": 0.24, "dense_step": 0.04}
 
-    @pytest.mark.parametrize(
-        ("keys", "value"),
-        [
-            (("analysis", "lobe_prominence"), 0.3),
-            (("analysis", "peaks", "speed_window"), [0.8, 1.2]),
-            (("analysis", "divergence", "growth"), 0.011),
-            (("chart", "speeds", "refine_above"), 0.51),
-            (("chart", "speeds", "dense_stop"), 0.32),
-            (("speeds", "extra"), [0.197]),
-            (("solver", "revolutions"), 21),
-        ],
-    )
-    def test_a_setting_that_shapes_the_point_changes_them(self, few_speeds, digest, keys, value):
-        before, section = digest(), reduce(operator.getitem, keys[:-1], few_speeds)
-        section[keys[-1]] = value
-        assert digest() != before
+    def digest(case=CASE):
+        return determinants(few_speeds, case, chart_speeds(few_speeds))
 
-    def test_every_coating_and_source_has_its_own_and_what_acts_elsewhere_leaves_them(
-        self, digest, monkeypatch, few_speeds
+    own = digest()
+    for *sections, key, value in (
+        ("analysis", "lobe_prominence", 0.3),
+        ("analysis", "peaks", "speed_window", [0.8, 1.2]),
+        ("analysis", "divergence", "growth", 0.011),
+        ("chart", "speeds", "refine_above", 0.51),
+        ("chart", "speeds", "dense_stop", 0.32),
+        ("speeds", "extra", [0.197]),
+        ("solver", "revolutions", 21),
+        ("casings", "2nd", "peak_orders", [2]),
     ):
-        others = [replace(CASE, E=3.0), replace(CASE, K=1.0), replace(CASE, theta=0.1)]
-        others += [replace(CASE, casing="2nd5nd"), replace(CASE, law="coulomb")]
-        found = {digest(case) for case in [CASE, *others]}
-        for source in ("solver_digest", "chart_digest"):
-            monkeypatch.setattr(column, source, lambda: "other")
-            found.add(digest())
-        assert len(found) == 8
-        before = digest()
-        few_speeds["chart"] |= {"E": [7], "K": [8], "limits": {"wear": 1e-9}}
-        few_speeds |= {"coatings": [], "results": "elsewhere", "figures": {"dpi": 50}}
-        few_speeds["analysis"] |= {"max_order": 9, "histories": []}
-        few_speeds["casings"]["2nd5nd"]["peak_orders"] = [5]
-        assert digest() == before
-        few_speeds["casings"]["2nd"]["peak_orders"] = [2]
-        assert digest() != before
+        section = reduce(operator.getitem, sections, few_speeds)
+        before, section[key] = section[key], value
+        assert digest() != own, key
+        section[key] = before
+    others = [replace(CASE, E=3.0), replace(CASE, K=1.0), replace(CASE, theta=0.1)]
+    others += [replace(CASE, casing="2nd5nd"), replace(CASE, law="coulomb")]
+    found = {digest(case) for case in [CASE, *others]}
+    few_speeds["chart"] |= {"E": [7], "K": [8], "limits": {"wear": 1e-9}}
+    few_speeds |= {"coatings": [], "results": "elsewhere", "figures": {"dpi": 50}}
+    few_speeds["analysis"] |= {"max_order": 9, "histories": []}
+    few_speeds["casings"]["2nd5nd"]["peak_orders"] = [5]
+    assert digest() == own  # what acts elsewhere leaves it
+    for source in ("solver_digest", "chart_digest"):
+        monkeypatch.setattr(column, source, lambda: "other")
+        found.add(digest())
+    assert len(found) == 8

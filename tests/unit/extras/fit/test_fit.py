@@ -20,7 +20,7 @@ def table(tmp_path):
     return written
 
 
-def test_a_curve_for_each_rate_in_si_by_the_units_of_the_header_or_those_given(table):
+def test_a_curve_for_each_rate_in_si_by_the_units_given_and_bad_tables_are_named(table):
     slow, fast = read(table("Strain [%], stress (MPa), rate (1/s)"))
     assert (slow.rate, fast.rate) == (1, 100)
     np.testing.assert_allclose(slow.strain, [1e-4, 2e-4, 3e-4])
@@ -28,11 +28,7 @@ def test_a_curve_for_each_rate_in_si_by_the_units_of_the_header_or_those_given(t
     path = table("strain,stress (MPa),rate")
     assert read(path, {"stress": "Pa"})[0].stress[0] == 5e6
     assert read(table("strain,stress,rate"), {"stress": "kPa"})[0].stress[0] == 5e3
-
-
-@pytest.mark.parametrize(
-    ("header", "rows", "words"),
-    [
+    for header, rows, words in (
         ("strain,force,rate", ROWS, "no column stress"),
         ("strain,stress,rate", ROWS, "column stress: has no unit"),
         ("strain,stress (Pa),rate", ["0.01,x,1", *ROWS], "line 2: stress = x, must be a finite number"),
@@ -41,12 +37,10 @@ def test_a_curve_for_each_rate_in_si_by_the_units_of_the_header_or_those_given(t
         ("strain,stress (Pa)", [f"{0.5 - 0.1 * n},{5 - n}" for n in range(5)], "begins at its largest"),
         ("strain,stress (Pa),rate", [f"0.{n},{n},1.{n}" for n in range(1, 7)], "the rate 1.1 1/s has 1 rows"),
         ("test,stress (Pa),rate,strain", ["a,1,1,1"] * 4 + ["a,1,2,1"], "test a has 2 rates"),
-    ],
-)
-def test_bad_tables_are_named(table, header, rows, words):
-    with pytest.raises(BadInput) as refused:
-        read(table(header, rows))
-    assert words in str(refused.value)
+    ):
+        with pytest.raises(BadInput) as refused:
+            read(table(header, rows))
+        assert words in str(refused.value)
 
 
 TRUTH = {"E": 900e6, "K": 60e6, "yield_stress": 8e6, "overstress": 3e6, "exponent": 0.2}

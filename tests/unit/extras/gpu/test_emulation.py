@@ -158,24 +158,7 @@ def test_without_a_gpu_it_is_said_what_to_take(cupy):
         device.connect()
 
 
-@pytest.mark.parametrize(
-    ("values", "reason"),
-    [
-        ({"E": math.inf, "K": math.inf}, "rigid casing"),
-        ({"law": "coulomb"}, "Coulomb"),
-        ({"scheme": "central_differences", "max_time_step": 2e-6}, "central_differences corrects"),
-        ({"element_law": described_law("thermal", LAYER)}, "thermal conducts heat"),
-        ({}, ""),
-    ],
-)
-def test_what_the_loop_can_not_do_is_said(values, reason, blade, spec, change):
-    changed = change(spec, **values)
-    told = refusal(changed, set_up(blade, changed)[1])
-    assert reason in told
-    assert bool(told) == bool(values)
-
-
-def test_the_window_of_elements_is_wide_enough_and_runs_of_other_sizes_have_the_same_program(
+def test_the_window_is_wide_enough_other_sizes_have_the_same_program_and_what_can_not_be_done_is_said(
     blade, spec, change
 ):
     for half_width in (1.0, 2.0, 2.5, 3.0, 6.0):
@@ -193,6 +176,17 @@ def test_the_window_of_elements_is_wide_enough_and_runs_of_other_sizes_have_the_
     assert source_for(half_width=1.3) == same
     assert source_for(half_width=1.2, n_elements=1500, revolutions=3) == same
     assert source_for(half_width=2.6) != same
+    for values, reason in (
+        ({"E": math.inf, "K": math.inf}, "rigid casing"),
+        ({"law": "coulomb"}, "Coulomb"),
+        ({"scheme": "central_differences", "max_time_step": 2e-6}, "central_differences corrects"),
+        ({"element_law": described_law("thermal", LAYER)}, "thermal conducts heat"),
+        ({}, ""),
+    ):
+        changed = change(spec, **values)
+        told = refusal(changed, set_up(blade, changed)[1])
+        assert reason in told
+        assert bool(told) == bool(values)
 
 
 WRAPPED = """
@@ -250,22 +244,16 @@ def test_a_formula_gives_what_it_gives_in_python(name, tmp_path):
 OWN_LIMIT = "def elastic_limit(element, wear):\n    return wear\n"  # return_mapping has another
 
 
-@pytest.mark.parametrize(
-    ("more", "body", "named"),
-    [
+def test_what_a_gpu_is_not_given_is_named():
+    for more, body, named in (
         ("", "element.elastic * abs(depth)", "elastic_force: abs"),
         ("", "unheard_of * depth", "elastic_force: unheard_of"),
         (OWN_LIMIT, "elastic_limit(element, depth)", "elastic_limit: two functions of this name"),
-    ],
-)
-def test_what_a_gpu_is_not_given_is_named(more, body, named):
-    module, force = ModuleType("law"), f"def elastic_force(element, depth):\n    return {body}\n"
-    source = f"from bladerub.contact.law import *\n{more}{force}"
-    exec(compile(source, "<law>", "exec"), module.__dict__)
-    with pytest.raises(ValueError, match=named):
-        formulas.of_law(module, source)
-
-
-def test_the_functions_are_those_that_the_loop_of_the_processor_calls():
+    ):
+        module, force = ModuleType("law"), f"def elastic_force(element, depth):\n    return {body}\n"
+        source = f"from bladerub.contact.law import *\n{more}{force}"
+        exec(compile(source, "<law>", "exec"), module.__dict__)
+        with pytest.raises(ValueError, match=named):
+            formulas.of_law(module, source)
     elements = inspect.getsource(__import__("bladerub.contact.kernel.elements", fromlist=["x"]))
     assert {name for name in dir(plastic) if f"law.{name}(" in elements} <= set(formulas.LAW)

@@ -20,7 +20,7 @@ def largest(built):
     return errors_by_mode(built.accuracy)[:6].max()
 
 
-def test_speeds_are_added_until_the_error_is_allowed(reduced):
+def test_speeds_or_modes_are_added_until_the_error_is_allowed(reduced):
     plain = reduced()
     tolerance = 0.2 * largest(plain).speed_law
     assert largest(plain).reduced_model > 2 * tolerance
@@ -28,9 +28,6 @@ def test_speeds_are_added_until_the_error_is_allowed(reduced):
     assert largest(built).reduced_model <= tolerance
     assert len(built.reduced.stiffness_higher) > 0
     assert built.made_from == reduced(tolerance=tolerance, accuracy_speeds=5).made_from != plain.made_from
-
-
-def test_modes_are_added_where_the_speed_law_is_good_enough(reduced):
     slow = {"f_omega_max": 0.05}
     plain = largest(reduced(**slow))
     assert plain.speed_law < 0.05 * plain.reduced_model

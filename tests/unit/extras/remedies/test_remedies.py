@@ -21,13 +21,10 @@ from bladerub.io.errors import BadInput
 def workflow_with(tmp_path, monkeypatch):
     """What `start` sees of Snakemake's workflow."""
     monkeypatch.setenv("PYTHONPATH", "")
-    persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
-
-    def workflow(limiter=None, local_exec=True):
-        scheduler = SimpleNamespace(job_rate_limiter=limiter)
-        return SimpleNamespace(scheduler=scheduler, local_exec=local_exec, persistence=persistence)
-
-    return workflow
+    own = {"persistence": SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)}
+    return lambda limiter=None, local_exec=True: SimpleNamespace(
+        scheduler=SimpleNamespace(job_rate_limiter=limiter), local_exec=local_exec, **own
+    )
 
 
 @pytest.mark.parametrize(

@@ -51,21 +51,17 @@ def test_the_gap_is_that_of_the_casing_under_each_node_as_the_blade_turns(blade)
     assert stated["friction"] == pytest.approx(0.15)
 
 
-def measured(**values):
-    rows = [(name, value, "m", 0.3 if name == "speed" else 0.0) for name, value in values.items()]
-    return pd.DataFrame(rows, columns=numbers.COLUMNS)
+def test_uncertainty_adds_changes_and_resolution_and_direct_contact_is_of_the_last_five_revolutions():
+    def measured(**values):
+        rows = [(name, value, "m", 0.3 if name == "speed" else 0.0) for name, value in values.items()]
+        return pd.DataFrame(rows, columns=numbers.COLUMNS)
 
-
-def test_uncertainty_is_the_root_of_the_sum_of_squares_of_changes_and_resolution():
     depths = {"reference": 1.0, "step": 1.3, "modes": 0.6, "nodes": 1.0}
     tables = {name: measured(depth=depth, speed=2.0, lost=1.0) for name, depth in depths.items()}
     table = with_uncertainty(tables | {"mesh": measured(depth=1.0, speed=2.4)}).set_index("number")
     assert table.uncertainty.to_dict() == pytest.approx({"depth": 0.5, "speed": 0.5})
     assert table.by_step["depth"] == pytest.approx(0.3)
     assert table.by_modes["depth"] == pytest.approx(-0.4)
-
-
-def test_direct_contact_is_measured_over_the_last_five_revolutions():
     turned = np.arange(10 * 360) / 360 * 2 * np.pi
     displacement = 1e-4 * (2 * np.cos(4 * turned) - 0.5 * np.cos(6 * turned) - 1)
     displacement[: 5 * 360] = 1.0

@@ -169,17 +169,14 @@ def test_a_run_ends_for_all_when_one_leaves_the_limit_and_is_the_same_until_then
         np.testing.assert_allclose(ended.radial_displacement, expected, rtol=0, atol=1e-9 * peaks.max())
 
 
-@pytest.mark.parametrize(
-    ("stiffness", "message"),
-    [
-        ([[[1.0, 0.1], [0.2, 1.0]]], "mode 1: must be a symmetric matrix"),
-        ([-1.5 * np.eye(2)], "mode 1: the stiffness of blades and disk must be positive definite"),
-        ([1e6 * np.eye(2)], "mode 1 of the 1 that it couples moves by .* must be 0.5 or less"),
-    ],
-)
-def test_a_disk_that_the_loop_cannot_have_is_refused(blade, spec, stiffness, message):
-    with pytest.raises(ValueError, match=message):
-        simulate_row(blade, spec, Row.even(2, disk=Disk.of(stiffness)))
+def test_a_disk_that_the_loop_cannot_have_is_refused(blade, spec):
+    for stiffness, message in (
+        ([[1.0, 0.1], [0.2, 1.0]], "mode 1: must be a symmetric matrix"),
+        (-1.5 * np.eye(2), "mode 1: the stiffness of blades and disk must be positive definite"),
+        (1e6 * np.eye(2), "mode 1 of the 1 that it couples moves by .* must be 0.5 or less"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            simulate_row(blade, spec, Row.even(2, disk=Disk.of([stiffness])))
 
 
 def test_draws_have_their_scatter_and_a_row_is_read_back_as_written():

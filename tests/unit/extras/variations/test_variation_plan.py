@@ -90,9 +90,8 @@ UNIT, WEIGHT, TURNS = (("factors", name) for name in ("unit", "weight", "turns")
 MODULUS = "contact.modulus_unit"
 
 
-@pytest.mark.parametrize(
-    ("plan", "key"),
-    [
+def test_a_wrong_entry_of_a_plan_or_a_factor_of_no_number_is_refused_with_its_place(make, study):
+    for plan, key in (
         (changed("seed", to=1.5), "seed = 1.5"),
         (changed(*UNIT, "sets", to={MODULUS: [1, 1]}), f'factors.unit.sets["{MODULUS}"][1] = 1'),
         (changed(*UNIT, "sets", to={MODULUS: [0, 1]}), f"factors.unit.sets.{MODULUS}"),
@@ -101,25 +100,20 @@ MODULUS = "contact.modulus_unit"
         (changed("parts", "soft", "samples", to=12), "parts.soft.samples = 12"),
         (changed("parts", "soft", "claims", to=["C13"]), "parts.soft.claims[0]"),
         (changed("parts", "soft", "claims", to=["C12"]), "parts.stiff.claims"),
-    ],
-)
-def test_a_wrong_entry_of_a_plan_is_refused_with_its_place(make, plan, key):
-    with pytest.raises(ConfigError) as caught:
-        make(plan)
-    (problem,) = caught.value.problems
-    assert problem.text.replace("'", '"').startswith(key)
-    assert problem.location.source.endswith("plan.yaml")
-    assert problem.location.line > 0
-
-
-@pytest.mark.parametrize("path", ["contact.modulus", "casings.2nd.weights[1]", "results"])
-def test_a_factor_must_set_a_number_of_the_study(study, make, path):
-    plan = make(changed("factors", "unit", "sets", to={path: [1, 2]}))
-    with pytest.raises(ConfigError) as caught:
-        configs_of(study, plan, "soft/0")
-    (problem,) = caught.value.problems
-    assert problem.text.startswith(f"factors.unit.sets.{path}")
-    assert problem.location == plan.factors[0].location
+    ):
+        with pytest.raises(ConfigError) as caught:
+            make(plan)
+        (problem,) = caught.value.problems
+        assert problem.text.replace("'", '"').startswith(key)
+        assert problem.location.source.endswith("plan.yaml")
+        assert problem.location.line > 0
+    for path in ("contact.modulus", "casings.2nd.weights[1]", "results"):
+        plan = make(changed("factors", "unit", "sets", to={path: [1, 2]}))
+        with pytest.raises(ConfigError) as caught:
+            configs_of(study, plan, "soft/0")
+        (problem,) = caught.value.problems
+        assert problem.text.startswith(f"factors.unit.sets.{path}")
+        assert problem.location == plan.factors[0].location
 
 
 def test_only_what_determines_a_sample_is_a_reason_to_run_it(study, make):
@@ -166,7 +160,6 @@ def test_each_set_is_laid_over_what_is_common_and_that_over_a_file(study, asked,
     config = asked(text)
     sets = sets_of(config)
     assert list(sets) == ["as_it_is", "stiff", "loose"]
-    assert all(config["speeds"]["start"] == 0.1 for config in sets.values())
     assert [config["contact"]["damping_ratio"] for config in sets.values()] == [1e-3, 1e-3, 5e-3]
     assert sets["stiff"]["contact"]["modulus_unit"] == 400e6
     assert sets["loose"]["contact"]["modulus_unit"] == study["contact"]["modulus_unit"]

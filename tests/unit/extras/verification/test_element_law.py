@@ -47,18 +47,15 @@ def test_a_law_that_is_right_has_no_problem_and_is_compiled(law, coating, compil
     assert compiled == [law]
 
 
-@pytest.mark.parametrize(
-    ("right", "wrong", "wanted"),
-    [
+def test_what_is_wrong_with_a_law_is_told(compiled, monkeypatch):
+    for right, wrong, wanted in (
         (FORCE, RISING, "energy is created: a cycle gives back more than it takes"),
         (FORCE, RISING, "elastic_force after wear is not the force"),
         (FORCE, FORCE.replace("- element", "- 2.0 * element"), "force or wear falls as the depth grows"),
         (PLASTIC_SLOPE, "plastic = element.elastic", TANGENT),
-    ],
-)
-def test_what_is_wrong_with_a_law_is_told(right, wrong, wanted, compiled, monkeypatch):
-    monkeypatch.setattr(element_law, "TIME_STEPS", (1e-6,))
-    assert PAPER.count(right) == 1
-    report = check_law(ElementLaw("own", (), PAPER.replace(right, wrong)), COATINGS)
-    assert wanted in {problem.what for problem in report.problems}
-    assert compiled == []
+    ):
+        monkeypatch.setattr(element_law, "TIME_STEPS", (1e-6,))
+        assert PAPER.count(right) == 1
+        report = check_law(ElementLaw("own", (), PAPER.replace(right, wrong)), COATINGS)
+        assert wanted in {problem.what for problem in report.problems}
+        assert compiled == []

@@ -48,14 +48,14 @@ def test_the_peak_is_followed_and_compared_with_that_of_the_study(blade, config,
     np.testing.assert_allclose(bars.wear_difference, [0, 1, 3], atol=1e-9)
 
 
-def test_of_a_study_without_these_all_coatings_are_listed():
+def test_all_coatings_are_listed_and_each_peak_and_a_plain_speed_is_compared_with_the_study(
+    blade, config, make_result, monkeypatch
+):
     of_all = [(0.0, 4, 0.31, "theta"), (0.0, 6, 0.19, "theta"), (math.nan, 6, 0.19, "coulomb")]
     rows = [("bumps", 1.0, 0.5, theta, order, f_peak, 1e-3, law) for theta, order, f_peak, law in of_all]
     found = listed(pd.DataFrame(rows, columns=COLUMNS))
     assert [(case.casing, peak.f_peak) for case, peak in found] == [("bumps", 0.31), ("bumps", 0.19)]
 
-
-def test_each_peak_and_a_plain_speed_is_compared_with_the_study(blade, config, make_result, monkeypatch):
     def simulate(_, spec, modes, how):
         return make_result(amplitude=2e-3 if how.treatment == "massless" else 1e-3, depth=0.0), how.finer
 
