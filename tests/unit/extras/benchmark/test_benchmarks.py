@@ -64,11 +64,11 @@ def test_runs_and_members_cost_what_the_drawn_ones_do(blade, monkeypatch):
 
 def figures(processor, ratio):
     loops = {"numpy": 1.0, "numba": 10.0, "production": ratio}
-    names = [f"ratio_to_{loop}{motion}" for loop in ("numpy", "numba") for motion in ("", "_free")]
-    names += ["vector_bits", "cores", "peak_flops", "seconds_per_run", "study_minutes"]
+    ratios = [f"ratio_to_{loop}{motion}" for loop in ("numpy", "numba") for motion in ("", "_free")]
+    others = ("vector_bits", "cores", "peak_flops", "seconds_per_run", "study_minutes")
     own = {"processor": processor, "fraction_of_peak_contact": 0.4, "fraction_of_peak_free": 0.6}
     own["steps_per_second"] = {loop: {"contact": rate, "free": 2 * rate} for loop, rate in loops.items()}
-    return dict.fromkeys(names, ratio) | own
+    return dict.fromkeys(ratios, ratio) | dict.fromkeys(others, 1) | own
 
 
 def test_each_machine_has_a_row_for_contact_and_one_for_free_motion(tmp_path):

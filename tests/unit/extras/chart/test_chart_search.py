@@ -273,7 +273,6 @@ def test_settings_coatings_and_sources_that_shape_a_point_count_for_its_key(few_
         ("chart", "speeds", "dense_stop", 0.32),
         ("speeds", "extra", [0.197]),
         ("solver", "revolutions", 21),
-        ("casings", "2nd", "peak_orders", [2]),
     ):
         section = reduce(operator.getitem, sections, few_speeds)
         before, section[key] = section[key], value
@@ -291,3 +290,5 @@ def test_settings_coatings_and_sources_that_shape_a_point_count_for_its_key(few_
         monkeypatch.setattr(column, source, lambda: "other")
         found.add(digest())
     assert len(found) == 8
+    few_speeds["casings"]["2nd"]["peak_orders"] = [2]
+    assert digest() not in found
