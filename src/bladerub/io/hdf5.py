@@ -172,8 +172,8 @@ def read(
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Read datasets, all or `only` these, and attributes, all or `attribute_names`, of the file at `path`.
 
-    What the file does not have is left out. Raises an `OSError` that names the file if it is missing or, as
-    `DamagedFile`, not a whole HDF5 file, or not as it was written.
+    What the file does not have is left out, and so are groups. Raises an `OSError` that names the file if it
+    is missing or, as `DamagedFile`, not a whole HDF5 file, or not as it was written.
     """
     with opened(path) as file:
         checksum.is_sealed(path)
@@ -217,7 +217,8 @@ def _content(
     file: h5py.File, only: Set[str] | None = None, attribute_names: Set[str] | None = None
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     names = file.keys() if only is None else only & file.keys()
-    return {name: _values(file[name]) for name in names}, _attributes(file, attribute_names)
+    datasets = {name: file[name] for name in names if file.get(name, getclass=True) is h5py.Dataset}
+    return {name: _values(dataset) for name, dataset in datasets.items()}, _attributes(file, attribute_names)
 
 
 def _values(dataset: h5py.Dataset) -> np.ndarray:

@@ -50,6 +50,9 @@ def test_files_with_repeated_values_hold_their_own(tmp_path):
     with h5py.File(tmp_path / "file.h5") as file:
         assert (file["peak"].compression, file["peak"].fletcher32) == ("gzip", True)
     assert hdf5.read(tmp_path / "file.h5", only={"wear", "unknown"})[0].keys() == {"wear"}
+    with h5py.File(tmp_path / "file.h5", "a") as file:  # of somebody who keeps more in it
+        file["mine/notes"] = 1.0
+    assert "mine" not in hdf5.read_any(tmp_path / "file.h5")[0]
 
 
 def test_a_changed_bit_is_noticed_and_an_error_of_the_system_keeps_its_number(tmp_path):

@@ -38,7 +38,7 @@ def test_a_manifest_comes_back_as_written_and_lists_runs_and_longer_runs(tmp_pat
         b"../0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\n",
         b"0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t1234\tbreaks off",
         b"0.1800.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t1234\tbreaks off",
-        b"x" * 200_000,  # more than a field of a table can be
+        b"x" * 200_000 + b"\n",  # more than a field of a table can be
         b"0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\xff\t\t\n",
     ],
 )
