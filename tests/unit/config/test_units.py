@@ -132,6 +132,12 @@ def test_a_wrong_unit_is_named_with_the_right_ones(study, setting, words):
     assert any(words in str(problem) for problem in error.value.problems), str(error.value)
 
 
+def test_a_number_that_is_hardly_above_what_is_allowed_is_no_speed_in_rpm(study):
+    with pytest.raises(ConfigError) as error:
+        study("speeds: {start: 5}")
+    assert "write" not in str(error.value)
+
+
 def test_a_blade_that_has_no_frequency_is_named_once(study):
     with pytest.raises(ConfigError) as error:
         study("speeds: {start: 2000 rpm}\nblade: {sections: []}")
