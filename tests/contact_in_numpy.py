@@ -11,19 +11,14 @@ import numpy as np
 import scipy.linalg
 import scipy.optimize
 
-from bladerub.blade.model import ReducedBlade
 from bladerub.contact.casing import shape
 from bladerub.contact.laws import module_of
 from bladerub.contact.setup import time_step
-from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, edge, relief
 from bladerub.extras.laws.heating import HEATED, cell_heights
-from bladerub.extras.rows.spec import Row
 
 
-def simulate(
-    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None
-) -> tuple[np.ndarray, np.ndarray]:
+def simulate(blade, spec, n_steps, n_modes=None):
     """Simulate from rest; return displacements of the nodes (n_steps, 2 j) and wear (j, N), m."""
     coating = _Coating(blade, spec)
     steps = _steps(blade, spec, n_modes, coating)
@@ -31,15 +26,13 @@ def simulate(
     return history[:, : 2 * blade.n_interface], coating.wear
 
 
-def element_means(displacement: np.ndarray, n_elements: int) -> np.ndarray:
+def element_means(displacement, n_elements):
     """Mean displacement in the passage of each element, from rest on."""
     ends = np.concatenate([[0.0], displacement])
     return (0.5 * (ends[1:] + ends[:-1])).reshape(n_elements, -1).mean(axis=1)
 
 
-def simulate_row(
-    blade: ReducedBlade, spec: RunSpec, row: Row, n_steps: int, n_modes: int | None = None
-) -> tuple[np.ndarray, np.ndarray]:
+def simulate_row(blade, spec, row, n_steps, n_modes=None):
     """Simulate a row step by step; return displacements (n_blades, n_steps, 2 j) and wear (j, N), m."""
     coatings = [_Coating(blade, spec) for _ in row.blades]
     squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
@@ -77,9 +70,7 @@ def _central_differences(blade, spec, coating):
     h = time_step(blade, spec)
     M, K = blade.mass, blade.stiffness(spec.f_omega)  # in the coordinates of eq. (6); K by eq. (2)
     squares, modes = scipy.linalg.eigh(K, M)
-    D = (
-        M @ modes @ np.diag(2 * spec.damping_ratio * np.sqrt(squares)) @ modes.T @ M
-    )  # the same ξ in all modes
+    D = M @ modes @ np.diag(2 * spec.damping_ratio * np.sqrt(squares)) @ modes.T @ M  # one ξ in all modes
     inverse = np.linalg.inv(M / h**2 + D / (2 * h))
     tip = tip_rows(blade, spec)
     u, u_before = np.zeros(len(M)), np.zeros(len(M))
@@ -141,7 +132,7 @@ def _implicit_forces(coating, time, u, compliance, guess):
 class _Coating:
     """The abradable elements around the casing, a ring for each interface node, and their wear so far."""
 
-    def __init__(self, blade: ReducedBlade, spec: RunSpec):
+    def __init__(self, blade, spec):
         self.spec, self.law = spec, module_of(spec.coating.element_law)
         n = spec.coating.n_elements
         x, y, z = blade.node_position.T[:, :, None]  # a row for each interface node
@@ -163,11 +154,9 @@ class _Coating:
         self.rows, self.around = np.arange(len(self.wear))[:, None], np.arange(-reach, reach + 1)
         self.strength = np.ones_like(self.wear)
         self.heat = _Heat(spec, self, area, time_step(blade, spec)) if hasattr(self.law, "strength") else None
-        self.q, self.pull = np.zeros(
-            (2, len(blade.mass))
-        )  # modal coordinates of the blade, and forces on them
+        self.q, self.pull = np.zeros((2, len(blade.mass)))  # modal coordinates, and forces on them
 
-    def contact(self, time: float, u: np.ndarray) -> np.ndarray:
+    def contact(self, time, u):
         """Forces on the tip at the displacement `u`, both as `tip_rows`."""
         u_r, u_t, *tilt = u.reshape(-1, len(self.wear), 1)
         # eq. (7): the closest point of the casing turns with the blade and moves with its vibration
@@ -195,7 +184,7 @@ class _Coating:
         force += [-couple * np.cos(self.spec.coating.theta) for _ in tilt]
         return np.ravel(force)
 
-    def settle(self, step: int, h: float, u: np.ndarray) -> np.ndarray:
+    def settle(self, step, h, u):
         """Leave the elements as they are at the end of a step; return the forces."""
         force = self.contact(step * h, u)
         if self.heat is not None:
@@ -210,7 +199,7 @@ class _Coating:
 class _Heat:
     """Temperature of the elements, in cells from the surface on, as in `bladerub.extras.laws.heating`."""
 
-    def __init__(self, spec: RunSpec, coating: _Coating, area: np.ndarray, h: float):
+    def __init__(self, spec, coating, area, h):
         own, n = dict(spec.coating.element_law.parameters), spec.coating.n_elements
         self.law, self.coating, self.area, self.radius = coating.law, spec.coating, area, coating.radius
         self.resistance, self.share = np.sin(spec.coating.theta), own["friction_share"]
@@ -233,7 +222,7 @@ class _Heat:
         self.energy = np.zeros_like(coating.wear)
         self.before, self.pressed = coating.node_angle, np.zeros_like(coating.wear)
 
-    def enter(self, coating: _Coating) -> None:
+    def enter(self, coating):
         """Enter what flow and friction made in a step."""
         slid = self.radius * (coating.position - self.before)
         self.energy += self.share * self.resistance * slid * 0.5 * (coating.pressed + self.pressed)
@@ -241,7 +230,7 @@ class _Heat:
         self.energy += coating.strength * flow
         self.before, self.pressed = coating.position, coating.pressed
 
-    def strength(self, step: int, before: np.ndarray) -> np.ndarray:
+    def strength(self, step, before):
         """Strength after a step; twice a turn that of the half of the casing on the other side changes."""
         if step % self.half:
             return before
@@ -257,7 +246,7 @@ class _Heat:
         return np.where(other, self.coating.thickness / np.sum(parts, axis=-1), before)
 
 
-def tip_rows(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+def tip_rows(blade, spec):
     """Rows (2 j, n), or (3 j, n) with the tilt, from the reduced coordinates to the motion of the tip, m."""
     n = blade.n_interface
     rows = np.zeros((2 * n, len(blade.mass)))

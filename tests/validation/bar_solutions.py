@@ -20,56 +20,26 @@ v > gT: the end leaves. The impulse ρc (vT + gT²/2) over ρL is 2v + gT, and t
 the centre of mass leaves upward at v again.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
-
-class Bar(NamedTuple):
-    """Uniform elastic bar: length (m), Young modulus (Pa), density (kg/m³)."""
-
-    length: float
-    modulus: float
-    density: float
-
-    @property
-    def wave_speed(self):
-        """c, m/s."""
-        return np.sqrt(self.modulus / self.density)
-
-    @property
-    def impedance(self):
-        """ρ c: stress per change of speed, Pa s/m."""
-        return self.density * self.wave_speed
-
-    @property
-    def mass(self):
-        """Kg per m² of cross-section."""
-        return self.density * self.length
-
-    @property
-    def crossing(self):
-        """T = 2L/c: time of a wave to the far end and back, s."""
-        return 2 * self.length / self.wave_speed
-
-
-DOYEN = Bar(length=10.0, modulus=900.0, density=1.0)
+LENGTH, MODULUS, DENSITY = 10.0, 900.0, 1.0  # m, Pa, kg/m³
+WAVE_SPEED = np.sqrt(MODULUS / DENSITY)
+IMPEDANCE = DENSITY * WAVE_SPEED  # ρ c: stress per change of speed, Pa s/m
+T = 2 * LENGTH / WAVE_SPEED
 SPEED, GRAVITY = 10.0, 10.0
 """Thrown at 10 m/s without gravity (impacting) or dropped from 5 m with it (bouncing): 10 m/s at touch."""
 
 
-def first_contact_force(bar, speed, gravity, tau):
-    """F(τ) of the first contact, Pa; 0 outside of it. Needs ``speed > gravity * bar.crossing``."""
-    touching = (tau >= 0) & (tau < bar.crossing)
-    return np.where(touching, bar.impedance * (speed + gravity * tau), 0.0)
+def first_contact_force(gravity, tau):
+    """F(τ) of the first contact, Pa; 0 outside of it."""
+    return np.where((tau >= 0) & (tau < T), IMPEDANCE * (SPEED + gravity * tau), 0.0)
 
 
-def second_contact_force(bar, speed, gravity, tau):
+def second_contact_force(tau):
     """F(τ) of the second contact where it begins at 4T, that is for v = 3gT/2 as in the benchmark, Pa.
 
     By (2) F(4T + s) = ρc (v + 4gT + gs) − 2 F(s) = ρc (4gT − v − gs): the first contact run backwards. The
     waves cancel, w′ = 8gT is uniform from 5T on, and the bar leaves undeformed at v.
     """
-    s = tau - 4 * bar.crossing
-    touching = (s >= 0) & (s < bar.crossing)
-    return np.where(touching, bar.impedance * (4 * gravity * bar.crossing - speed - gravity * s), 0.0)
+    s = tau - 4 * T
+    return np.where((s >= 0) & (s < T), IMPEDANCE * (4 * GRAVITY * T - SPEED - GRAVITY * s), 0.0)

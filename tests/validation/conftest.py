@@ -36,15 +36,20 @@ def coarse_blade(coarse_config):
 
 
 @pytest.fixture(scope="session")
-def run(coarse_config, coarse_blade):
-    """Run a coating on the casing with 2 nodal diameters, with other values of the spec where given."""
+def spec_of(coarse_config):
+    """Give a run of a coating on the casing with 2 nodal diameters, with other values where given."""
 
-    def run(E, K, f_omega, theta=0.0, **values):
+    def spec_of(E, K, f_omega, theta=0.0, **values):
         spec = run_spec(coarse_config, CoatingCase("2nd", E, K, theta), f_omega)
         for part in ("casing", "coating", "tip"):
             names = {field.name for field in dataclasses.fields(getattr(spec, part))} & values.keys()
             inner = {name: values.pop(name) for name in names}
             spec = dataclasses.replace(spec, **{part: dataclasses.replace(getattr(spec, part), **inner)})
-        return simulate(coarse_blade, dataclasses.replace(spec, **values))
+        return dataclasses.replace(spec, **values)
 
-    return run
+    return spec_of
+
+
+@pytest.fixture(scope="session")
+def run(spec_of, coarse_blade):
+    return lambda *coating, **values: simulate(coarse_blade, spec_of(*coating, **values))

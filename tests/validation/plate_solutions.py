@@ -60,7 +60,7 @@ def ritz(points, material, n_modes, terms=(9, 3, 11)):
     Minimises the elastic over the kinetic energy with `terms` polynomials along ξ, η and ζ, those along ζ
     times ζ; the Jacobian is that of `points` by differences, the integrals are Gauss's.
     """
-    rules = [_shapes(n, clamped) for n, clamped in zip(terms, (False, False, True), strict=True)]
+    rules = [_shapes(n, power) for n, power in zip(terms, (0, 0, 1), strict=True)]
     cube = np.stack([axis.ravel() for axis in np.meshgrid(*(rule[0] for rule in rules), indexing="ij")])
     weight = np.einsum("i,j,k->ijk", *(rule[1] for rule in rules)).ravel()
     jacobian = np.stack([_slope(points, cube, axis) for axis in range(3)], axis=1).transpose(2, 0, 1)
@@ -83,13 +83,24 @@ def ritz(points, material, n_modes, terms=(9, 3, 11)):
     return np.sqrt(squares) / (2 * np.pi)
 
 
-def _shapes(n_terms, clamped):
-    """Give Gauss's points and weights on [0, 1], and the terms and their slopes there."""
+def beam_ritz(speed, hub_radius=0.0, n_terms=16):
+    """Flapwise frequencies of the rotating Euler-Bernoulli beam, dimensionless.
+
+    Minimises ∫ w″² + T w′² over ∫ w² with T = η² (δ (1 − x) + (1 − x²) / 2), hub radius δ L.
+    """
+    x, weight, (w, slope, bend) = _shapes(n_terms, 2)
+    tension = speed**2 * (hub_radius * (1 - x) + (1 - x**2) / 2)
+    stiffness = (bend.T * weight) @ bend + (slope.T * weight * tension) @ slope
+    return np.sqrt(eigh(stiffness, (w.T * weight) @ w, eigvals_only=True))
+
+
+def _shapes(n_terms, power):
+    """Give Gauss's points and weights on [0, 1], and the terms, times x to a power, and derivatives there."""
     x, weight = np.polynomial.legendre.leggauss(n_terms + 4)
     x, weight = (x + 1) / 2, weight / 2
-    clamp = Legendre([0.5, 0.5], [0, 1]) if clamped else Legendre([1.0], [0, 1])
+    clamp = Legendre([0.5, 0.5], [0, 1]) ** power
     terms = [clamp * Legendre.basis(k, [0, 1]) for k in range(n_terms)]
-    return x, weight, [np.stack([term.deriv(order)(x) for term in terms], axis=1) for order in (0, 1)]
+    return x, weight, [np.stack([term.deriv(order)(x) for term in terms], axis=1) for order in (0, 1, 2)]
 
 
 def _slope(points, cube, axis, step=1e-4):

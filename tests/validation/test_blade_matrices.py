@@ -8,9 +8,7 @@ from bladerub.contact.run import simulate
 from bladerub.extras.blades.matrices import import_matrices
 from bladerub.extras.blades.origin import MatrixSource
 from bladerub.extras.export.matrices import write_fe_matrices
-from bladerub.study.grid import CoatingCase, run_spec
 
-COATING = CoatingCase("2nd", 2.0, 0.5, 0.0)
 SPEEDS = (0.12, 0.18, 0.295)  # the second and third in the resonances with engine orders 6 and 4
 
 
@@ -29,12 +27,11 @@ def blades(config, tmp_path_factory):
     return ours, import_matrices(source, reduction["f_omega_max"], 8, reduction["modes_per_speed"]).blade
 
 
-def test_frequencies_and_wear_are_the_same(blades, config):
+def test_frequencies_and_wear_are_the_same(blades, config, spec_of):
     np.testing.assert_allclose(blades[1].frequency, blades[0].frequency, rtol=1e-9)
     reduced = [reduce_given(blade, config).reduced for blade in blades]
     for f_omega in SPEEDS:
-        spec = run_spec(config, COATING, f_omega)
-        ours, theirs = (simulate(blade, spec).wear for blade in reduced)
+        ours, theirs = (simulate(blade, spec_of(2.0, 0.5, f_omega)).wear for blade in reduced)
         difference = np.abs(theirs - ours).max() / ours.max()
         print(f"f_omega = {f_omega}: deepest wear {1e6 * ours.max():.3g} µm, difference {difference:.1e}")
         assert ours.max() > 1e-6

@@ -22,10 +22,9 @@ which is first made to return the values of FV16.
 
 import runpy
 
-import beam_solutions
 import numpy as np
 import pytest
-from plate_solutions import clamped, curved, plate_unit, ritz, straight, twisted
+from plate_solutions import beam_ritz, clamped, curved, plate_unit, ritz, straight, twisted
 
 from bladerub.blade.build import build
 from bladerub.blade.elasticity import Material
@@ -36,10 +35,10 @@ from bladerub.config import read as configuration
 from bladerub.extras.blades import mesh_file
 from bladerub.io.folders import ROOT
 
-PAGE = ROOT / "docs" / "explanation" / "validation.md"
 BLADE = ROOT / "config" / "blades" / "twisted_plate.inp"  # of config/twisted_plate.yaml
 
 STEEL = Material(2e11, 0.3, 8000.0)
+GRADING = 1.5  # of elements, smaller at the root, where the stress is singular
 
 YOUNG_BARTON_LEISSA = (3.494, 8.547, 21.44, 27.46, 31.17, 54.443)
 CONVERGED = (3.4710, 8.5063, 21.284, 27.199, 30.955, 54.184)
@@ -47,22 +46,9 @@ CONVERGED = (3.4710, 8.5063, 21.284, 27.199, 30.955, 54.184)
 FAN_BLADE = (86.6, 135.5, 258.9, 350.6, 395.2, 531.1, 743.2)  # Hz
 
 
-def solid(points, counts, material=STEEL):
-    """Hexahedra of the plate, smaller at its root, where the stress is singular."""
-    return clamped(points, counts, material, grading=1.5)
-
-
 def frequencies(points, counts, n_modes, material=STEEL, speed=0.0):
-    body = solid(points, counts, material)
+    body = clamped(points, counts, material, GRADING)
     return lowest_modes(equilibrium(body, speed).stiffness, body.mass, n_modes)[0]
-
-
-def row_of_page(heading):
-    """Numbers of the one row of the page's tables that begins with `heading`, shares of percentages."""
-    begin = f"| {heading} |"
-    (row,) = (line for line in PAGE.read_text(encoding="utf-8").split("\n") if line.startswith(begin))
-    cells = row.removeprefix(begin).strip(" |").replace("−", "-").split(" | ")
-    return np.array([float(cell.removesuffix(" %")) / (100 if "%" in cell else 1) for cell in cells])
 
 
 def compare(what, found, expected, **tolerance):
@@ -88,7 +74,7 @@ def test_twisted_plates_vibrate_as_by_ritz(aspect, slenderness, degrees):
     expected = ritz(points, STEEL, 8)
     found = frequencies(points, counts, 8)
     to_lambda = 2 * np.pi / plate_unit(STEEL, 0.1 / slenderness, 0.1 * aspect)
-    print(f"a/b = {aspect}, b/h = {slenderness}, {degrees}°: λ = {np.round(to_lambda * found, 3)}")
+    print("λ =", np.round(to_lambda * found, 3))
     compare(f"a/b = {aspect}, b/h = {slenderness}, {degrees}°", found, expected, rtol=4e-3)
 
 
@@ -96,7 +82,7 @@ def test_twisted_plates_vibrate_as_by_ritz(aspect, slenderness, degrees):
     ("thickness", "axis", "deflection"), [(0.32, 0, 0.001753), (0.32, 1, 0.005425)], ids=["edge", "flat"]
 )
 def test_twisted_beam_bends_as_published(thickness, axis, deflection):
-    body = solid(twisted(12.0, 1.1, thickness, 90.0), (4, 24), Material(29e6, 0.22, 1.0))
+    body = clamped(twisted(12.0, 1.1, thickness, 90.0), (4, 24), Material(29e6, 0.22, 1.0), GRADING)
     mesh = body.mesh
     faces = boundary_faces(mesh.cells)
     faces = faces[np.isclose(mesh.points[faces, 2], 12.0).all(axis=1)]
@@ -114,8 +100,6 @@ def test_curved_fan_blade_vibrates_as_measured():
     found = frequencies(points, (20, 20), 7, steel)
     compare("fan blade, Ritz", found, ritz(points, steel, 7), rtol=5e-3)
     compare("fan blade, measured", found, FAN_BLADE, rtol=4e-2)
-    assert row_of_page("ours over measured, less 1") == pytest.approx(found / FAN_BLADE - 1, abs=6e-4)
-    assert list(row_of_page("measured")) == list(FAN_BLADE)
 
 
 def test_rotating_plate_vibrates_as_published():
@@ -124,7 +108,7 @@ def test_rotating_plate_vibrates_as_published():
     speed = 2 * np.pi * 50
     found = frequencies(straight((0.028, thickness, length), hub_radius), (2, 24), 1, steel, speed)
     unit = np.sqrt(steel.young_modulus * thickness**2 / 12 / (steel.density * length**4))
-    flap = unit * beam_solutions.ritz(speed / unit, hub_radius / length)[0]
+    flap = unit * beam_ritz(speed / unit, hub_radius / length)[0]
     compare("rotating plate, beam", found, [np.sqrt(flap**2 - speed**2) / (2 * np.pi)], rtol=5e-3)
     compare("rotating plate, Carnegie", found, [52.75], rtol=2e-2)
 

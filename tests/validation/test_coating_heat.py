@@ -6,8 +6,6 @@ of a half-space that is warmer by T₀ at the start keeps of it the mean
 slowest mode decays at the rate ``α π² / (4 H²)``.
 """
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scipy.special import erf
@@ -24,7 +22,6 @@ from bladerub.extras.passages.speed_sweep import simulate_sweep
 from bladerub.extras.passages.sweep_grid import SweepSpec
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Row
-from bladerub.study.grid import CoatingCase, run_spec
 
 DEPTH, THICKNESS, CAPACITY, CONDUCTIVITY = 1e-4, 5e-3, 2e6, 5.0
 DIFFUSIVITY = CONDUCTIVITY / CAPACITY
@@ -62,11 +59,8 @@ def test_the_slowest_mode_is_that_of_the_layer():
 
 
 @pytest.fixture
-def spec(coarse_config):
-    """A run without conduction."""
-    spec = run_spec(coarse_config, CoatingCase("2nd", 1.1, 0.5, 0.15), 0.19)
-    coating = replace(spec.coating, element_law=thermal(conductivity=0.0))
-    return replace(spec, coating=coating, revolutions=4)
+def spec(spec_of):
+    return spec_of(1.1, 0.5, 0.19, 0.15, element_law=thermal(conductivity=0.0), revolutions=4)
 
 
 def kept_share(result, ledgers, blade, spec):

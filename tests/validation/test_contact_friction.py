@@ -31,17 +31,12 @@ def vibration(s_0, coulomb, n_cycles, scheme):
     speed = OMEGA * W * unit
     tip_modes = np.zeros((16, 1))
     tip_modes[8, 0] = M**-0.5  # only along the casing
-    modes, contact = (
-        Modes(np.array([OMEGA]), tip_modes, 8),
-        Contact(PUSH * ONES, -np.cos(THETA), -np.sin(THETA)),
-    )
-    rule = SCHEMES[scheme](modes, 0.0, STEP, contact)
+    contact = Contact(PUSH * ONES, -np.cos(THETA), -np.sin(THETA))
+    rule = SCHEMES[scheme](Modes(np.array([OMEGA]), tip_modes, 8), 0.0, STEP, contact)
     gap = np.ones((N, 8))
     gap[:, 0] = -1.0
-    lever = N * speed * STEP / (2 * np.pi)
-    loop = simulation(
-        rule, contact, gap, coulomb=coulomb, per_metre=1 / (speed * STEP), radius=1e9, lever=lever
-    )
+    place = {"per_metre": 1 / (speed * STEP), "radius": 1e9, "lever": N * speed * STEP / (2 * np.pi)}
+    loop = simulation(rule, contact, gap, coulomb=coulomb, **place)
     state = loop.state
     start = np.sqrt(W**2 + s_0 * abs(s_0))  # from −d, where the circle is farthest out
     positions = unit * np.array([start, start * np.cos(OMEGA * STEP), start * np.cos(2 * OMEGA * STEP)]) - d
@@ -85,11 +80,9 @@ def test_a_constant_direction_takes_nothing_from_the_vibration(scheme):
     np.testing.assert_allclose(peaks(x), np.hypot(W, 3.0), rtol=1e-3)
 
 
-@pytest.mark.parametrize(("f_omega", "theta"), [(0.19, 0.15), (0.206, 0.15), (0.31, 0.15), (0.02, 0.15)])
-def test_both_laws_agree_where_sliding_never_turns(run, f_omega, theta):
-    constant, coulomb = (
-        run(2.0, 0.5, f_omega, theta=theta, law=law, revolutions=5) for law in ("theta", "coulomb")
-    )
+@pytest.mark.parametrize("f_omega", [0.02, 0.206])
+def test_both_laws_agree_where_sliding_never_turns(run, f_omega):
+    constant, coulomb = (run(2.0, 0.5, f_omega, 0.15, law=law, revolutions=5) for law in ("theta", "coulomb"))
     assert constant.n_reversed_steps == coulomb.n_reversed_steps == 0
     assert 0 < constant.slowest_sliding < 1
     scale = constant.revolution_peak.max()

@@ -1,7 +1,5 @@
 """Tips with other than eight interface nodes: the time loop against the whole model in plain NumPy."""
 
-import dataclasses
-
 import contact_in_numpy
 import numpy as np
 import pytest
@@ -10,9 +8,7 @@ from bladerub.blade.build import build
 from bladerub.config.read import load
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
-from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
 from bladerub.io.folders import ROOT
-from bladerub.study.grid import CoatingCase, run_spec
 
 STEPS = 400
 
@@ -26,26 +22,11 @@ def wide(request):
     return build(config).reduced
 
 
-@pytest.fixture
-def spec():
-    return RunSpec(
-        casing=Casing("2nd", (2,), (1.0,), 0.5e-3, 0.45e-3, 0.0),
-        coating=Coating(1.1, 0.5, 0.1, 1e-6, 150e6, 5e-3, 200),
-        tip=TipProfile(2.0, 20e-6),
-        clearance=(30e-6, 86e-6),
-        damping_ratio=2.3e-3,
-        f_omega=0.3,
-        revolutions=1,
-        scheme="exponential",
-        steps_per_element=12,
-        max_time_step=1e-5,
-        displacement_limit=0.02,
-    )
-
-
 @pytest.mark.parametrize("turns", [pytest.param(False, marks=pytest.mark.nightly), True])
-def test_the_loop_agrees_with_the_reference_model(wide, spec, turns):
-    spec = dataclasses.replace(spec, tip=dataclasses.replace(spec.tip, turns=turns))
+def test_the_loop_agrees_with_the_reference_model(wide, spec_of, turns):
+    coarse = {"n_elements": 200, "modulus_unit": 150e6, "steps_per_element": 12, "max_time_step": 1e-5}
+    coarse |= {"start_angle": 0.0, "revolutions": 1, "turns": turns}
+    spec = spec_of(1.1, 0.5, 0.3, 0.1, **coarse)
     rule, simulation = set_up(wide, spec)
     n_elements = STEPS // simulation.steps_per_element
     shown = np.empty(n_elements)
@@ -61,17 +42,13 @@ def test_the_loop_agrees_with_the_reference_model(wide, spec, turns):
     np.testing.assert_allclose(worn.max(axis=0), wear.max(axis=1), rtol=1e-4, atol=1e-12)
 
 
-LONG = [
-    pytest.param(*values, marks=pytest.mark.nightly) for values in ((12, np.inf), (19, np.inf), (19, 0.5))
-]
+LONG = [pytest.param(*of, marks=pytest.mark.nightly) for of in ((12, np.inf), (19, np.inf), (19, 0.5))]
 
 
 # without elements no profile is met, which is another loop to compile for each width
 @pytest.mark.parametrize(("wide", "modulus"), [(5, 0.5), (5, np.inf), (12, 0.5), *LONG], indirect=["wide"])
-def test_energy_is_kept(wide, modulus):
-    spec = run_spec(load(ROOT / "config" / "config.yaml"), CoatingCase("2nd", modulus, modulus, 0.0), 0.346)
-    turning = dataclasses.replace(spec.tip, turns=True)
-    result = simulate(wide, dataclasses.replace(spec, tip=turning, revolutions=2))
+def test_energy_is_kept(wide, spec_of, modulus):
+    result = simulate(wide, spec_of(modulus, modulus, 0.346, turns=True, revolutions=2))
     assert result.n_contact_steps > 1000
     assert result.n_unconverged_steps == 0
     assert result.energy.residual < 1e-3

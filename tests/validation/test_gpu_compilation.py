@@ -26,10 +26,7 @@ def compile_for(architecture: str, variant: Variant) -> tuple[int, int]:
         told = nvrtc.getProgramLog(program)
         nvrtc.destroyProgram(program)
     assert "warning" not in told, told
-    used, spilled = (
-        re.search(text, told)[1] for text in (r"Used (\d+) registers", r"(\d+) bytes spill stores")
-    )
-    return int(used), int(spilled)
+    return tuple(int(re.search(text, told)[1]) for text in (r"Used (\d+) reg", r"(\d+) bytes spill stores"))
 
 
 @pytest.mark.parametrize("vectors", [1, 2, 3, 4])

@@ -24,9 +24,8 @@ def begin(study):
 
     def started(folder):
         with (folder / "output.txt").open("w") as output:
-            processes.append(
-                subprocess.Popen(COMMAND, cwd=folder, env=study.environment, stdout=output, stderr=output)
-            )
+            place = {"cwd": folder, "env": study.environment}
+            processes.append(subprocess.Popen(COMMAND, stdout=output, stderr=output, **place))
         return processes[-1]
 
     yield started

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import pytest
 import yaml
 
 from bladerub.contact import law
@@ -52,9 +53,8 @@ def test_a_change_of_the_config_plans_what_comes_of_it(study, tiny):
     plan = study.plan(tiny | {"casings": {"2nd5nd": {"interference": 0.0003}}})
     assert plan["coating"] == 1
     assert "blade" not in plan
-    assert (
-        study.plan(tiny | {"analysis": tiny["analysis"] | {"peaks": {"speed_window": [0.9, 1.2]}}}) == PEAKS
-    )
+    analysis = tiny["analysis"] | {"peaks": {"speed_window": [0.9, 1.2]}}
+    assert study.plan(tiny | {"analysis": analysis}) == PEAKS
     tiny["coatings"][2]["E"].append(3)
     tables = {"peaks": 1, "divergence": 1, "findings": 1, "margins": 1, "histograms": 1}
     assert study.plan(tiny) == {"coating": 2} | tables | END  # with both theta
@@ -103,6 +103,34 @@ def test_a_lost_run_is_computed_alone(copied_study, tiny):
     assert {name for name in before if after[name] != before[name]} == {lost}
     assert read_attributes(path)["run_key"] == key
     assert copied_study.plan(tiny, "results/tables/peaks.csv") == {}
+
+
+def halve_the_speed_step(config):
+    config["speeds"]["step"] /= 2
+
+
+def remove_an_E(config):
+    config["coatings"][1]["E"].pop(0)
+
+
+@pytest.mark.parametrize("edit", [pytest.param(halve_the_speed_step, marks=pytest.mark.nightly), remove_an_E])
+def test_an_edit_computes_what_is_missing_or_stale_and_nothing_else(copied_study, tiny, edit):
+    def to_do():
+        counts = copied_study.status()
+        return counts["missing"] + counts["stale"]
+
+    target, study_runs = "results/tables/divergence.csv", "*/*.h5"  # without the longer runs
+    edit(tiny)
+    (copied_study.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))  # which the status reads
+    planned, before = to_do(), copied_study.runs(study_runs)
+    copied_study.build(tiny, target)
+    now = copied_study.runs(study_runs)
+    assert before.keys() <= now.keys()
+    assert sum(before.get(name) != stamp for name, stamp in now.items()) == planned
+    assert (planned == 0) == (edit is remove_an_E)
+    assert any(now[name] == stamp for name, stamp in before.items())
+    assert copied_study.plan(tiny, target) == {}
+    assert to_do() == 0
 
 
 def test_confirmation_computes_no_run_of_the_study(copied_study, tiny):

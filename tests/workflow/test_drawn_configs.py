@@ -34,8 +34,7 @@ def numbers(value, path=()):
 def changed_numbers(draw):
     """Up to three numbers of the config with others near their own."""
     overlay = {}
-    paths = list(numbers(load(STUDY)))
-    for path, value in draw(st.lists(st.sampled_from(paths), max_size=3, unique_by=lambda it: it[0])):
+    for path, value in draw(st.lists(st.sampled_from(list(numbers(load(STUDY)))), max_size=3)):
         number = value * draw(st.sampled_from([0, 0.5, 0.9, 1.25, 2]))
         inner = overlay
         for name in path[:-1]:
@@ -76,8 +75,7 @@ def studies(draw):
         overlay["casings"] = {name: draw(casing()) for name in names}
         overlay["coatings"] = [draw(coating(name)) for name in names]
     if draw(st.booleans()):
-        start = draw(st.sampled_from([0.05, 0.1, 0.3]))
-        step = draw(st.sampled_from([0.005, 0.01, 0.05]))
+        start, step = draw(st.sampled_from([0.05, 0.1, 0.3])), draw(st.sampled_from([0.005, 0.01, 0.05]))
         overlay["speeds"] = {"start": start, "stop": start + 0.1, "step": step, "extra": []}
     return overlay
 

@@ -1,9 +1,6 @@
 """Explorer and report of the tiny study in a real browser; skipped where there is none."""
 
 import shutil
-from collections.abc import Iterator
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -21,16 +18,16 @@ SECONDS_TO_OPEN = 3.0
 class Explorer:
     """The page in a browser: what a user does, and what can be seen then."""
 
-    def __init__(self, driver: Any, path: Path):
+    def __init__(self, driver, path):
         self.driver, self.path = driver, path
 
-    def open(self, link: str = "") -> "Explorer":
+    def open(self, link=""):
         """Open the page anew from its file, at `link`, and wait until it is drawn."""
         self.driver.get("about:blank")
         self.driver.get(self.path.as_uri() + link)
         return self.wait()
 
-    def wait(self) -> "Explorer":
+    def wait(self):
         """Wait until everything chosen is drawn, and the address holds it."""
         from selenium.webdriver.support.ui import WebDriverWait
 
@@ -38,51 +35,47 @@ class Explorer:
             "return document.querySelector('#main')?.getAttribute('aria-busy') === 'false'"
             " && document.querySelector('#link').hash === location.hash"
         )
-        WebDriverWait(self.driver, 30, poll_frequency=0.02).until(
-            lambda driver: driver.execute_script(settled)
-        )
+        wait = WebDriverWait(self.driver, 30, poll_frequency=0.02)
+        wait.until(lambda driver: driver.execute_script(settled))
         return self
 
-    def find(self, selector: str) -> Any:
+    def find(self, selector):
         return self.driver.find_element("css selector", selector)
 
-    def click(self, selector: str) -> "Explorer":
+    def click(self, selector):
         self.find(selector).click()
         return self.wait()
 
-    def click_map(self, name: str, x: float, y: float) -> "Explorer":
+    def click_map(self, name, x, y):
         """Click a picture at the values `x`, `y` of its axes."""
         from selenium.webdriver import ActionChains
 
         picture = self.find(f"#{name}")
         self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
-        right, down = self.driver.execute_script(
+        place = (
             "const [picture, x, y] = arguments, { xaxis, yaxis } = picture._fullLayout;"
             "const box = picture.getBoundingClientRect();"
             "const [right, down] = [xaxis._offset + xaxis.l2p(x), yaxis._offset + yaxis.l2p(y)];"
-            "return [right - box.width / 2, down - box.height / 2]",
-            picture,
-            x,
-            y,
+            "return [right - box.width / 2, down - box.height / 2]"
         )
+        right, down = self.driver.execute_script(place, picture, x, y)
         mouse = ActionChains(self.driver).move_to_element_with_offset(picture, right, down)
         mouse.pause(0.2).click().perform()
         return self.wait()
 
-    def drawn(self, name: str, key: str, trace: int = 0) -> np.ndarray:
+    def drawn(self, name, key, trace=0):
         """Values of one trace of a picture."""
         values = self.asked(f"Array.from(document.getElementById('{name}').data[{trace}].{key})")
         return np.array(values, dtype=float)
 
-    def asked(self, script: str) -> Any:
+    def asked(self, script):
         return self.driver.execute_script(f"return {script}")
 
 
 @pytest.fixture(scope="module")
-def driver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
-    webdriver = pytest.importorskip(
-        "selenium.webdriver", reason="no selenium; .venv/bin/pip install -e .[browser]"
-    )
+def driver(tmp_path_factory):
+    reason = "no selenium; .venv/bin/pip install -e .[browser]"
+    webdriver = pytest.importorskip("selenium.webdriver", reason=reason)
     chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
     if not chromium or not chromedriver:
         pytest.skip("no chromium and chromedriver; apt-get install chromium chromium-driver")
@@ -97,7 +90,7 @@ def driver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
 
 
 @pytest.fixture
-def explorer(study, driver) -> Explorer:
+def explorer(study, driver):
     return Explorer(driver, study.results / "explorer.html").open(f"#A={STRAIGHT}&f=0.206")
 
 
@@ -125,17 +118,15 @@ def test_the_pictures_are_those_of_the_study(explorer, study):
 
 @pytest.mark.parametrize(("name", "x", "y"), [("wear-A", 0.27, 100), ("spectrum-A", 1.0, 0.27)])
 def test_a_click_in_a_map_chooses_the_speed(explorer, name, x, y):
-    def run() -> tuple[list[float], str]:
+    def run():
         return explorer.drawn("polar", "r").tolist(), explorer.find("#figures tbody").text
 
     before = run()
     explorer.click_map(name, x, y)
     assert float(explorer.find("#speed-text").text) == 0.27
     assert all(now != then for now, then in zip(run(), before, strict=True))
-    lines = explorer.asked(
-        "['wear-A', 'spectrum-A'].map((name) => document.getElementById(name).layout.shapes.at(-1))"
-    )
-    assert (lines[0]["x0"], lines[1]["y0"]) == (0.27, 0.27)
+    line = "document.getElementById('{}').layout.shapes.at(-1).{}"
+    assert [explorer.asked(line.format(*of)) for of in (("wear-A", "x0"), ("spectrum-A", "y0"))] == [0.27] * 2
 
 
 def test_a_link_restores_the_view(explorer):

@@ -20,19 +20,15 @@ print(blade.path)
 """
 
 
-@pytest.fixture(
-    params=["2", pytest.param("1", marks=pytest.mark.nightly), pytest.param("", marks=pytest.mark.nightly)]
-)
-def environment(request, tmp_path, monkeypatch):
+@pytest.mark.parametrize("threads", ["2", *(pytest.param(n, marks=pytest.mark.nightly) for n in ("1", ""))])
+def test_a_run_is_the_same_wherever_it_is_asked_for(copied_study, threads, tmp_path, monkeypatch):
     limits = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
     for name in limits:
         monkeypatch.delenv(name, raising=False)
-    given = {"BLADERUB_CACHE": str(tmp_path / "cache")}
-    return given | (dict.fromkeys(limits, request.param) if request.param else {})
+    environment = {"BLADERUB_CACHE": str(tmp_path / "cache")}
+    environment |= dict.fromkeys(limits, threads) if threads else {}
 
-
-def test_a_run_is_the_same_wherever_it_is_asked_for(copied_study, environment, tmp_path):
-    def call(*command: str) -> str:
+    def call(*command):
         done = copied_study.call(*command, **environment)
         assert done.returncode == 0, done.stderr
         return done.stdout.strip()

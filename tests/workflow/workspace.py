@@ -89,9 +89,7 @@ class Workspace:
                 whole[path.relative_to(folder).as_posix()] = (status.st_ino, status.st_mtime_ns)
         return whole
 
-    def snakemake(
-        self, *arguments: str, config: dict[str, Any] | str | None = None
-    ) -> subprocess.CompletedProcess:
+    def snakemake(self, *arguments, config=None) -> subprocess.CompletedProcess:
         """Run Snakemake with `config` (a mapping, or the text of a file) laid over config/config.yaml."""
         if config is not None:
             text = config if isinstance(config, str) else yaml.safe_dump(config)
@@ -107,20 +105,11 @@ class Workspace:
             code = int(server.stdout.readline())
             return subprocess.CompletedProcess(command, code, stdout.read_text(), stderr.read_text())
 
-    def call(
-        self, program: str | Path, *arguments: str | Path, **environment: str
-    ) -> subprocess.CompletedProcess:
+    def call(self, program, *arguments, **environment) -> subprocess.CompletedProcess:
         """Run a program of the environment in this copy."""
-        return subprocess.run(
-            [BIN / program, *arguments],
-            cwd=self.folder,
-            env=self.environment | environment,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            timeout=600,
-            encoding="utf-8",
-            errors="replace",
-        )
+        streams = {"stdin": subprocess.DEVNULL, "capture_output": True, "encoding": "utf-8"}
+        place = {"cwd": self.folder, "env": self.environment | environment}
+        return subprocess.run([BIN / program, *arguments], timeout=600, errors="replace", **streams, **place)
 
     def plan(self, config: dict[str, Any], *targets: str) -> dict[str, int]:
         """Dry-run: how many jobs of each rule are planned. The folder keeps the config of its study."""

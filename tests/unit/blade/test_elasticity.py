@@ -90,16 +90,9 @@ def test_patch_of_distorted_elements_holds_a_uniform_strain(make_block, make_mes
     np.testing.assert_allclose(found, np.broadcast_to(np.eye(3) + gradient, found.shape), atol=1e-14)
 
 
-def test_rigid_motions_cost_nothing(block):
-    x = block.mesh.doflocs
-    zero = np.zeros(x.shape[1])
-    rotations = [[zero, -x[2], x[1]], [x[2], zero, -x[0]], [-x[1], x[0], zero]]
-    motions = [np.eye(3)[axis][:, None] + 0 * x for axis in range(3)] + [np.stack(r) for r in rotations]
-    K = block.tangent(np.zeros(block.free.size))
-    for motion in motions:
-        assert np.abs(K @ motion.T.ravel()).max() < 1e-10 * np.abs(K.data).max()
-    rank = np.linalg.matrix_rank(K.toarray() / np.abs(K.data).max(), tol=1e-11)
-    assert rank == block.free.size - 6
+def test_nothing_but_six_rigid_motions_costs_nothing(block):
+    K = block.tangent(np.zeros(block.free.size)).toarray()
+    assert np.linalg.matrix_rank(K / np.abs(K).max(), tol=1e-11) == block.free.size - 6
 
 
 def test_mass_and_first_moment_are_those_of_the_body(make_block, make_mesh):

@@ -48,12 +48,6 @@ def test_sections_are_stacked_by_the_centroid_of_the_camber_line(twisted_config)
     assert np.arctan2(y, z).mean() == pytest.approx(0.0, abs=1e-8)
 
 
-def test_check_finds_a_mesh_turned_inside_out(blade_config):
-    blade_config["sections"][1].update(thickness=-0.05)
-    with pytest.raises(ValueError, match=r"^blade\.sections: mesh turned inside out at span"):
-        check(blade_config)
-
-
 @pytest.mark.parametrize(("chordwise", "thickness", "n_nodes"), [(6, 1, 7), (3, 4, 7)])
 def test_check_counts_the_nodes_of_the_interface(blade_config, chordwise, thickness, n_nodes):
     blade_config["mesh"].update(chordwise=chordwise, thickness=thickness)
@@ -79,5 +73,5 @@ def test_check_finds_elements_inside_out_at_some_corners(blade_config):
     corners = np.meshgrid(np.linspace(0, 1, 8), [0.0, 1.0], [0.0, 1.0], indexing="ij")
     jacobian = corner_jacobians(BladeShape.from_config(blade_config).points(*corners))
     assert jacobian.min() < 0 < jacobian.max()
-    with pytest.raises(ValueError, match="inside out"):
+    with pytest.raises(ValueError, match=r"^blade\.sections: mesh turned inside out at span"):
         check(blade_config)

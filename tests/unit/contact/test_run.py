@@ -90,14 +90,6 @@ def test_large_tangential_motion_agrees_with_reference(blade, spec, change):
     np.testing.assert_allclose(result.wear, wear, rtol=0, atol=1e-8 * wear.max())
 
 
-def test_no_contact_leaves_everything_at_rest(blade, spec, change):
-    result = simulate(blade, change(spec, interference=0.0))
-    assert result.status == "completed"
-    assert result.n_contact_steps == 0
-    assert not result.wear.any()
-    assert not result.radial_displacement.any()
-
-
 def blade_imbalance(energy):
     gained = energy.kinetic + energy.elastic - energy.initial + energy.damping
     work = energy.work_radial + energy.work_tangential + energy.work_couple
@@ -115,23 +107,13 @@ def test_energy_ledger_of_the_blade_closes_to_rounding(blade, spec, change, thet
     assert (energy.work_rotation > 0) == (theta > 0)
 
 
-def test_energy_ledger_of_blade_and_coating_closes_with_the_square_of_the_step(blade, spec, change):
-    residuals = [
-        simulate(
-            blade, change(spec, E=5.0, theta=0.1, steps_per_element=steps, max_time_step=1e-3)
-        ).energy.residual
-        for steps in (12, 24, 48)
-    ]
-    assert residuals[0] < 1e-3
-    assert residuals[2] < residuals[0] / 8
-
-
-def test_energy_ledger_closes_where_the_profile_turns(turning_blade, spec, change):
-    spec = change(spec, E=2.0, theta=0.1, turns=True, max_time_step=1e-3)
-    energy = simulate(turning_blade, change(spec, steps_per_element=48)).energy
+@pytest.mark.parametrize("turns", [False, True])
+def test_energy_ledger_of_blade_and_coating_closes(turning_blade, spec, change, turns):
+    spec = change(spec, E=2.0, theta=0.1, turns=turns, steps_per_element=48, max_time_step=1e-3)
+    energy = simulate(turning_blade, spec).energy
     assert blade_imbalance(energy) < 1e-9
     assert energy.residual < 5e-5
-    assert abs(energy.work_couple) > 100 * 5e-5 * energy.exchanged
+    assert (abs(energy.work_couple) > 100 * 5e-5 * energy.exchanged) == turns
 
 
 def test_sliding_takes_what_the_rotation_gives_to_it_and_to_the_blade(blade, spec, change):
@@ -159,6 +141,7 @@ def test_rigid_casing_is_touched_and_neither_passed_nor_worn(blade, spec, change
 def test_start_in_the_first_mode_rings_at_its_frequency(blade, spec, change):
     spec = change(spec, interference=0.0, initial_displacement=-1e-7, revolutions=8)
     result = simulate(blade, spec)
+    assert (result.status, result.n_contact_steps, result.wear.any()) == ("completed", 0, False)
     frequency = modes_at(blade, spec.f_omega).omega[0] / (2 * np.pi)
     time = (np.arange(result.radial_displacement.size) + 0.5) / spec.coating.n_elements
     time /= spec.f_omega * blade.f1_hz
