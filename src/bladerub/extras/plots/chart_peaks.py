@@ -84,7 +84,8 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) ->
         for (theta, points), look in zip(of_order.groupby("theta"), cycle(_LOOKS), strict=False):
             stiffened, others = points[is_stiffened(points)], points[~is_stiffened(points)]
             marks = {"ls": "none", "mew": 0.5, **look}
-            label = rf"$\theta$ = {theta:g} rad, rank correlation {correlation[order, theta]:.2f}"
+            rank = correlation[order, theta]
+            label = rf"$\theta$ = {theta:g} rad" + ("" if pd.isna(rank) else f", rank correlation {rank:.2f}")
             axes.plot(stiffened.E_T, stiffened.f_peak, **marks, mec="none", label=label)
             axes.plot(others.E_T, others.f_peak, **marks | {"mfc": "none", "color": GREY})
         axes.axhline(of_order.f_crossing.mean(), color=GREY, lw=0.9, ls="--", label="crossing with $C_1$")
