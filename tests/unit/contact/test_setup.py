@@ -146,7 +146,9 @@ def test_accepted_limits_keep_every_index_within_a_turn(blade, spec, change, see
 def test_a_blade_whose_tip_may_leave_the_turn_is_refused(blade, spec):
     outwards = dataclasses.replace(blade, radial_direction=-blade.radial_direction)
     no_numbers = dataclasses.replace(blade, node_position=blade.node_position * np.nan)
-    for broken in (at_radius(blade, 1e-6), outwards, no_numbers):
+    one_node = blade.node_position * np.where(np.arange(8) == 2, 1e-6, 1.0)[:, None]
+    near_the_axis = dataclasses.replace(blade, node_position=one_node)
+    for broken in (at_radius(blade, 1e-6), near_the_axis, outwards, no_numbers):
         with np.errstate(all="ignore"), pytest.raises(ValueError, match="displacement limit"):
             setup.tip_record(broken, spec)
 
