@@ -217,8 +217,9 @@ def _content(
     file: h5py.File, only: Set[str] | None = None, attribute_names: Set[str] | None = None
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     names = file.keys() if only is None else only & file.keys()
-    datasets = {name: file[name] for name in names if file.get(name, getclass=True) is h5py.Dataset}
-    return {name: _values(dataset) for name, dataset in datasets.items()}, _attributes(file, attribute_names)
+    entries = ((name, file[name]) for name in names)
+    data = {name: _values(entry) for name, entry in entries if isinstance(entry, h5py.Dataset)}
+    return data, _attributes(file, attribute_names)
 
 
 def _values(dataset: h5py.Dataset) -> np.ndarray:

@@ -30,10 +30,11 @@ def save(
     Names of outputs begin with `prefix` where a job draws several figures. `origin` is as of
     `bladerub.io.tables.write`, by default of the study at work.
     """
+    made_from = origin or provenance(snakemake.config)
+    columns_files = _columns_files(snakemake)
     for name, table in frames.items():
         form = "%.6g" if name == "data" else digits
-        made_from = origin or provenance(snakemake.config)
-        tables.write(snakemake.output[prefix + name], table, made_from, form, _columns_files(snakemake))
+        tables.write(snakemake.output[prefix + name], table, made_from, form, columns_files)
     if figure is not None:
         from bladerub.plots import style  # imports Matplotlib, which jobs of tables do without
 
