@@ -9,6 +9,7 @@ import pytest
 
 from docs.numbers import FOLDER, Tables, numbers_of, readme, table
 from docs.numbers.claims import changed_sentences
+from docs.numbers.record import VALUES, values
 
 ROOT = Path(__file__).parents[2]
 NAME = re.compile(r"\{\{ (\w+) \}\}")
@@ -28,6 +29,11 @@ def tables():
 @pytest.mark.parametrize("page", sorted(PAGES))
 def test_each_name_of_a_page_has_a_number_and_each_number_is_quoted(page, tables):
     assert set(NAME.findall(PAGES[page])) == set(numbers_of(page, tables))
+
+
+def test_the_numbers_are_those_on_record(tables):
+    """A review sees in ``values.txt`` what a change does to the pages (``python -m docs.numbers.record``)."""
+    assert values(tables) == VALUES.read_text(encoding="utf-8")
 
 
 def test_no_sentence_was_written_for_another_verdict(tables):

@@ -1,4 +1,4 @@
-"""Take the tables that pages quote, and write the table of claims in the README."""
+"""Take the tables that pages quote, record the numbers, and write the table of claims in the README."""
 
 from bladerub.workflow import job
 
@@ -9,8 +9,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path.cwd()))  # for docs
 from docs import snapshots
-from docs.numbers import Tables, data_folders, readme
+from docs.numbers import data_folders
+from docs.numbers.record import record
 
 for folder in data_folders(Path()):
     snapshots.update(folder, Path(snakemake.params.results))
-readme.update(Path("README.md"), Tables())
+record()

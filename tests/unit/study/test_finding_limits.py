@@ -149,9 +149,10 @@ def test_prominence_of_a_maximum_over_speed(evidence, make_map, height, speed):
     coating = make_map(WORN, {}, np.array([0.02, 0.05, 0.24, 0.26, 0.28, 0.4]))
     coating.max_wear[:] = [0, 1e-4, 0, height, 0, 0]
     assert measure("C3a", evidence([coating])).measured == speed
-    coating.max_wear[:] = 0
-    finding = measure("C3a", evidence([coating]))
-    assert (finding.paper, finding.measured, finding.holds) == (0.26, "none", "no")
+    for nowhere in (0.0, [1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1.09e-4]):
+        coating.max_wear[:] = nowhere
+        finding = measure("C3a", evidence([coating]))
+        assert (finding.paper, finding.measured, finding.holds) == (0.26, "none", "no")
 
 
 @pytest.mark.parametrize(("id_", "order", "paper"), [("C4a", 6, 0.21), ("C4b", 4, 0.31)])
@@ -345,7 +346,7 @@ def test_six_lobes_at_a_speed(evidence, id_, lobes, holds):
 def test_distance_of_a_stiff_coating_from_the_rigid_casing(
     evidence, column, softer, stiffest, holds, margin, order
 ):
-    values = {4.99: 1.0, 5.0: softer, 11.0: softer, 20.0: stiffest}
+    values = {4.99: 1.0, 5.0: 2 * softer - 1, 11.0: softer, 20.0: stiffest}  # the softest is the furthest
     rows = [
         over_moduli(lambda e, k: 1.0 if k < 10 else values[e], values, [0.05, 10.0], order),
         over_moduli(lambda e, k: 1.0, values, [0.05, 10.0], 10 - order),
@@ -384,8 +385,10 @@ def test_moduli_are_compared_along_rows_and_columns_with_two_of_them(evidence):
     study = evidence(peaks=peak_rows(*diagonal))
     assert measure("C6a", study).holds == "yes"
     assert not any(is_measured(id_, study) for id_ in ("C6b", "C7a", "C7b", "C8a", "C8b"))
-    without = evidence(peaks=over_moduli(lambda e, k: e, [0.5, 2.0], [0.5, 1.0], 4))  # the critical one
-    assert not any(is_measured(id_, without) for id_ in ("C6a", "C6b"))
+    # without the critical one, with one K, with one E within the paper's range
+    for E, K in (([0.5, 2.0], [0.5, 1.0]), ([1.1, 2.0], [0.5]), ([1.1, 30.0], [0.5, 1.0])):
+        without = evidence(peaks=over_moduli(lambda e, k: e, E, K, 4))
+        assert not any(is_measured(id_, without) for id_ in ("C6a", "C6b"))
 
 
 @pytest.mark.parametrize(("dropped", "judged"), [([5.0], True), ([20.0], False), ([5.0, 11.0], False)])
