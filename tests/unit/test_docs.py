@@ -1,12 +1,14 @@
-"""Links, paths and names in README.md, CONTRIBUTING.md, docs/ and studies/ lead somewhere."""
+"""Links, paths, names and commands in README.md, CONTRIBUTING.md, docs/ and studies/ lead somewhere."""
 
 import ast
 import re
+import shlex
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
+from bladerub.cli import parser
 from bladerub.config.read import load
 from bladerub.io import tables
 from docs import snapshots
@@ -28,11 +30,11 @@ HEADING = re.compile(r"^#+ (.+)$", re.M)
 PATH = re.compile(r"(?<![\w/.])(?:src|tests|config|profiles)/[\w./-]*\w")
 NAME = re.compile(r"(?<![\w/.])bladerub(?:\.\w+)+")
 NOT_IN_GIT = {"src/bladerub/numerics/__pycache__"}
+BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
+COMMAND = re.compile(r"`(bladerub [a-z-]+ [^`]*--[^`]*)`")
 TERM = re.compile(r"^\* .*\. (?P<code>`.+)$", re.M)
 PAGE = (ROOT / "docs" / "reference" / "equations.md").read_text(encoding="utf-8")
-ROW = re.compile(
-    r"^\| `(?P<tag>.+?)` \|.*\| `(?P<module>bladerub[\w.]*)(?::(?P<name>[\w.]+))?`[^|]*\|$", re.M
-)
+ROW = re.compile(r"^\| `(?P<tag>.+?)` \|.*\| `(?P<name>bladerub[\w.]*(?::[\w.]+)?)`[^|]*\|$", re.M)
 ROWS = [row.groupdict() | {"tag": row["tag"].replace(r"\|", "|")} for row in ROW.finditer(PAGE)]
 HOW_TO, STUDY = DOCS / "how-to", DOCS.parent / "studies" / "chart"
 ORIGIN = {"version": "1"}
@@ -72,29 +74,52 @@ def test_every_path_named_is_in_the_repository():
 def test_every_name_of_the_package_exists():
     for page, text in PAGES.items():
         for name in set(NAME.findall(text)):
-            assert is_defined(name), f"{page}: {name}"
-    assert not is_defined("bladerub.contact.spec.RunSpec.speed")
+            assert definition(name)[1], f"{page}: {name}"
+    assert definition("bladerub.contact.spec.RunSpec.speed")[1] is None
 
 
-def is_defined(name):
-    """Whether a dotted name is a module of the package, or defined in one: a field of a class as well."""
+def definition(name):
+    """Return the text of a file of the package and what a dotted name stands for in it, if anything.
+
+    That is its module, or what is defined there: a field of a class as well.
+    """
     path, parts = ROOT / "src", name.split(".")
     while parts and (path / parts[0]).is_dir():
         path /= parts.pop(0)
-    if not parts:
-        return True
-    path /= f"{parts.pop(0)}.py" if (path / f"{parts[0]}.py").exists() else "__init__.py"
-    node = ast.parse(path.read_text(encoding="utf-8"))
+    path /= f"{parts.pop(0)}.py" if parts and (path / f"{parts[0]}.py").exists() else "__init__.py"
+    text = path.read_text(encoding="utf-8")
+    node = ast.parse(text)
     for part in parts:
-        node = next((child for child in node.body if part in _defined_by(child)), None)
-        if node is None:
-            return False
-    return True
+        node = next((child for child in getattr(node, "body", ()) if part in _defined_by(child)), None)
+    return text, node
 
 
 def _defined_by(node):
     targets = getattr(node, "targets", [getattr(node, "target", node)])
     return {getattr(target, "name", getattr(target, "id", None)) for target in targets}
+
+
+def commands(text):
+    for block in BLOCK.findall(text):
+        lines = block.replace("\\\n", " ").splitlines()
+        given = [line.split("|")[0] for line in lines if line.startswith(".venv/bin/bladerub ")]
+        yield from (line.removeprefix(".venv/bin/") for line in given)
+    yield from COMMAND.findall(text)
+
+
+def parses(command):
+    try:
+        parser().parse_args(shlex.split(command, comments=True)[1:])
+    except SystemExit as end:
+        return end.code == 0  # --help
+    return True
+
+
+def test_the_commands_of_pages_are_accepted():
+    for page, text in PAGES.items():
+        for command in set(commands(text)):
+            assert parses(command), f"{page}: {command}"
+    assert not parses("bladerub status --deep")
 
 
 def test_the_glossary_names_keys_of_the_config_that_exist():
@@ -116,17 +141,6 @@ def test_the_readme_is_short():
     assert len((ROOT / "README.md").read_bytes()) <= 9216
 
 
-def source_of(module, name):
-    """Return the source of a function or class, or the docstring of its module."""
-    text = (ROOT / "src").joinpath(*module.split(".")).with_suffix(".py").read_text(encoding="utf-8")
-    node = ast.parse(text)
-    if name is None:
-        return ast.get_docstring(node)
-    for part in name.split("."):
-        node = next(child for child in node.body if getattr(child, "name", None) == part)
-    return ast.get_source_segment(text, node)
-
-
 def test_the_index_names_every_equation_and_figure_of_the_model():
     tags = {row["tag"] for row in ROWS}
     assert {f"eq. ({number})" for number in range(1, 10)} <= tags
@@ -137,7 +151,9 @@ def test_the_index_names_every_equation_and_figure_of_the_model():
 
 def test_every_function_of_the_index_bears_its_tag():
     for row in ROWS:
-        source = source_of(row["module"], row["name"])
+        text, node = definition(row["name"].replace(":", "."))
+        is_module = isinstance(node, ast.Module)
+        source = ast.get_docstring(node) if is_module else ast.get_source_segment(text, node)
         # and not as the beginning of another
         assert re.search(re.escape(row["tag"]) + r"(?!\d)", source), row
 
@@ -149,18 +165,8 @@ def test_every_function_of_the_index_bears_its_tag():
         (HOW_TO, HOW_TO, "[a](../../studies/chart/README.md#accuracy)", "[a](../notes/chart.md#accuracy)"),
         (HOW_TO, HOW_TO, "[a](../../studies/of_nobody/README.md#accuracy) b", "a b"),
         (HOW_TO, HOW_TO, "[a](../gallery/07_own_law.py)", "[a](../auto_gallery/07_own_law.rst)"),
-        (
-            STUDY,
-            SITE,
-            "[a](../variations/README.md#robustness)",
-            "[a](variations.md#robustness)",
-        ),
-        (
-            STUDY,
-            SITE,
-            "![a](images/chart_Y4.png)",
-            "![a](../../studies/chart/images/chart_Y4.png)",
-        ),
+        (STUDY, SITE, "[a](../variations/README.md#robustness)", "[a](variations.md#robustness)"),
+        (STUDY, SITE, "![a](images/chart_Y4.png)", "![a](../../studies/chart/images/chart_Y4.png)"),
     ],
 )
 def test_a_link_leads_to_the_page_of_the_site(page, site, text, followed):
