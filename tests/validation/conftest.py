@@ -1,5 +1,3 @@
-import dataclasses
-
 import pytest
 
 from bladerub.blade.build import build
@@ -7,6 +5,7 @@ from bladerub.config.read import load
 from bladerub.contact.run import simulate
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import CoatingCase, run_spec
+from tests.unit.stand_in import change  # noqa: F401 (fixture)
 
 
 @pytest.fixture
@@ -36,16 +35,11 @@ def coarse_blade(coarse_config):
 
 
 @pytest.fixture(scope="session")
-def spec_of(coarse_config):
+def spec_of(coarse_config, change):  # noqa: F811
     """Give a run of a coating on the casing with 2 nodal diameters, with other values where given."""
 
     def spec_of(E, K, f_omega, theta=0.0, **values):
-        spec = run_spec(coarse_config, CoatingCase("2nd", E, K, theta), f_omega)
-        for part in ("casing", "coating", "tip"):
-            names = {field.name for field in dataclasses.fields(getattr(spec, part))} & values.keys()
-            inner = {name: values.pop(name) for name in names}
-            spec = dataclasses.replace(spec, **{part: dataclasses.replace(getattr(spec, part), **inner)})
-        return dataclasses.replace(spec, **values)
+        return change(run_spec(coarse_config, CoatingCase("2nd", E, K, theta), f_omega), **values)
 
     return spec_of
 

@@ -1,7 +1,9 @@
 """Laws of the elements against closed forms, their limits and their energy.
 
-Source: Simo and Hughes, Computational Inelasticity (1998), section 1.7, for linear viscoplasticity: the
-overstress x of ``σ = σ_Y + K ε_p + x`` decays as ``exp(−(E + K) t / η)`` at a constant strain, and goes to
+Sources: Simo and Hughes, Computational Inelasticity (1998), section 1.2 (Box 1.4 and eq. 1.2.45), for 1D
+plasticity with linear hardening: the elastoplastic modulus is E K / (E + K) and a strain increment beyond
+yield gives Δγ = f / (E + K). Section 1.7, for linear viscoplasticity: the overstress x of
+``σ = σ_Y + K ε_p + x`` decays as ``exp(−(E + K) t / η)`` at a constant strain, and goes to
 ``η r E / (E + K)`` at a constant rate r. A law that breaks or is perfectly plastic holds its stress.
 Expected: order 1 in the step of the implicit integration, order 2 of the energy that the ledger misses.
 """
@@ -12,6 +14,7 @@ import math
 import numpy as np
 import pytest
 
+from bladerub.contact.law import load
 from bladerub.contact.laws import module_of
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.extras.heat import LAYER
@@ -24,6 +27,22 @@ VISCOPLASTIC = described_law("viscoplastic", {"viscosity": VISCOSITY})
 BRITTLE = described_law("brittle", {"break_strain": 2e-3})
 PERFECT = described_law("perfectly_plastic", {"yield_stress": 2e6})
 THERMAL = described_law("thermal", LAYER | {"softening_rise": 50.0})
+
+
+@pytest.mark.parametrize(("E", "K"), [(0.11, 10.0), (1.1, 0.5), (20.0, 0.05), (20.0, 10.0)])
+@pytest.mark.parametrize("yield_stress", [0.0, 0.01])
+def test_plasticity_follows_the_closed_form_whatever_the_path(E, K, yield_stress):
+    coating = Coating(E, K, 0.0, yield_stress, 1.0, 5e-3, 2000)
+    rng = np.random.default_rng(3)
+    strain = np.concatenate([np.linspace(0, 0.1, 50), rng.uniform(0, 0.2, 400)])
+    wear, highest = 0.0, 0.0
+    for epsilon in strain:
+        stress, wear = load(coating, epsilon * coating.thickness, wear)
+        highest = max(highest, epsilon)
+        # plastic strain and stress depend on the largest strain alone
+        plastic = max(0.0, (E * highest - yield_stress) / (E + K))
+        assert wear / coating.thickness == pytest.approx(plastic, rel=1e-12, abs=1e-15)
+        assert stress == pytest.approx(max(0.0, E * (epsilon - plastic)), rel=1e-9, abs=1e-12)
 
 
 def press(law, strain, time_step=math.inf):
