@@ -12,10 +12,9 @@ from bladerub.extras.blades.similarity import contact_scale, tip_stiffness, trac
 from bladerub.study.grid import CoatingCase, run_spec
 
 
-@pytest.fixture(scope="module")
-def similar_config(coarse_config):
+def similar(config):
     """The blade at 0.37 of its size, of steel instead of titanium."""
-    config = copy.deepcopy(coarse_config)
+    config = copy.deepcopy(config)
     blade = config["blade"]
     blade["hub_radius"] *= 0.37
     blade["length"] *= 0.37
@@ -26,9 +25,8 @@ def similar_config(coarse_config):
     return config
 
 
-def test_a_similar_blade_rubs_alike_in_its_own_units(
-    coarse_config, coarse_blade, similar_config, monkeypatch
-):
+def test_a_similar_blade_rubs_alike_in_its_own_units(coarse_config, coarse_blade, monkeypatch):
+    similar_config = similar(coarse_config)
     for name, value in (
         ("F1_HZ", coarse_blade.f1_hz),
         ("TIP_STIFFNESS", tip_stiffness(coarse_blade)),

@@ -1,5 +1,3 @@
-import pytest
-
 from bladerub.contact.spec import PLASTIC
 from bladerub.extras import law_reading
 from bladerub.study import grid
@@ -13,16 +11,13 @@ PARAMETERS = {"slope": ("Pa", 0.0, 10.0, "a slope")}
 """
 
 
-@pytest.fixture
-def with_law(config, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(law_reading, "study_folder", lambda: tmp_path)
-    return lambda **law: {**config, "contact": {**config["contact"], "law": law}}
-
-
 def test_the_law_of_the_elements_is_plastic_unless_the_config_names_another_or_a_file(
-    config, with_law, tmp_path
+    config, monkeypatch, tmp_path
 ):
+    def with_law(**law):
+        return config | {"contact": config["contact"] | {"law": law}}
+
+    monkeypatch.setattr(law_reading, "study_folder", lambda: tmp_path)
     case = CoatingCase("2nd", 1.1, 0.5, 0.0)
     wanted = grid.run_spec(config, case, 0.2)
     assert wanted == grid.run_spec(with_law(name="plastic"), case, 0.2)

@@ -19,8 +19,9 @@ from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import DATASETS
 
 
-@pytest.fixture
-def made(study, blade, simulated, monkeypatch, tmp_path):
+def test_a_small_study_has_all_runs_judges_the_claims_asked_for_and_is_the_same_without_a_folder(
+    study, blade, simulated, growing, repeated, monkeypatch, tmp_path
+):
     study["coatings"] = [{"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.15]}]
     study["analysis"] |= {"histories": [], "peaks": study["analysis"]["peaks"] | {"orders": [4, 6]}}
     monkeypatch.setattr(small_study, "read_reduced_blade", lambda _: blade)
@@ -28,15 +29,9 @@ def made(study, blade, simulated, monkeypatch, tmp_path):
     accuracy = pd.DataFrame({"f_omega": 0.1, "mode": range(1, 8), "relative_error": 1e-3})
     monkeypatch.setattr(small_study, "read_rom_accuracy", lambda _: accuracy)
 
-    def make(claims=None, folder=tmp_path / "study"):
+    def made(claims=None, folder=tmp_path / "study"):
         return small_study.conduct(study, "model.h5", "rom_accuracy.csv", folder, claims)
 
-    return make
-
-
-def test_a_small_study_has_all_runs_judges_the_claims_asked_for_and_is_the_same_without_a_folder(
-    made, simulated, growing, repeated, study, tmp_path
-):
     growing[0.19] = 0.05
     found = made({"C1"})
     assert (simulated, repeated, found.n_runs) == ([0.1, 0.19, 0.2, 0.3], [0.19], 5)
@@ -59,9 +54,10 @@ def test_a_small_study_has_all_runs_judges_the_claims_asked_for_and_is_the_same_
         np.testing.assert_array_equal(getattr(in_memory, name), getattr(of_files, name))
 
 
-@pytest.fixture
-def stored(write_run, make_result, spec, tmp_path):
-    def write(law, speeds, amplitude=1e-3, **changes):
+def test_both_laws_are_compared_speed_by_speed_for_coatings_that_are_no_part_of_the_study(
+    write_run, make_result, spec, config, tmp_path
+):
+    def stored(law, speeds, amplitude=1e-3, **changes):
         result = replace(make_result(amplitude=amplitude), **changes)
         rows = []
         for f_omega in speeds:
@@ -70,10 +66,6 @@ def stored(write_run, make_result, spec, tmp_path):
         write_manifest(tmp_path / law / "manifest.tsv", rows)
         return tmp_path / law / "manifest.tsv"
 
-    return write
-
-
-def test_both_laws_are_compared_speed_by_speed_for_coatings_that_are_no_part_of_the_study(stored, config):
     constant = stored("theta", [0.1, 0.2], n_reversed_steps=30, slowest_sliding=-0.2)
     coulomb = stored("coulomb", [0.1, 0.2], amplitude=1.1e-3, n_reversed_steps=60, status="unbounded")
     table = friction.table([(constant, coulomb)], revolutions=10)
@@ -94,26 +86,19 @@ def test_both_laws_are_compared_speed_by_speed_for_coatings_that_are_no_part_of_
     assert not set(cases) & set(grid.coating_cases(config))
 
 
-SPEEDS = (0.0, 0.2, 0.4)
-
-
-@pytest.fixture
-def built(blade):
-    """The blade of the tests as it would be built: moved by 0.1 mm, its model off by a part for each mode."""
+def test_the_figures_of_a_blade_are_those_of_its_model_and_its_compliance_that_of_springs(blade):
+    """Of a blade that the rotation moves by 0.1 mm and whose model is off by a part for each mode."""
     coupled = blade.stiffness_0 + 0.1 * blade.stiffness_0[0, 0]
-    blade = replace(blade, stiffness_0=coupled, stiffness_1=3 * coupled)
-    exact = {speed: reduced_frequencies(blade, speed, 7) for speed in SPEEDS}
+    reduced = replace(blade, stiffness_0=coupled, stiffness_1=3 * coupled)
+    exact = {speed: reduced_frequencies(reduced, speed, 7) for speed in (0.0, 0.2, 0.4)}
     off = 1 + 1e-3 * np.arange(1, 8)
-    accuracy = accuracy_table(blade, {s: f / off for s, f in exact.items()}, exact)
+    accuracy = accuracy_table(reduced, {s: f / off for s, f in exact.items()}, exact)
     moved = np.zeros((3, 5, 3))
     moved[-1, 2] = (0.6e-4, 0.0, 0.8e-4)
-    return SimpleNamespace(reduced=blade, accuracy=accuracy, static_displacement=moved)
-
-
-def test_the_figures_of_a_blade_are_those_of_its_model_and_its_compliance_that_of_springs(built, blade):
+    built = SimpleNamespace(reduced=reduced, accuracy=accuracy, static_displacement=moved)
     table = blade_comparison.blades({"this": built, "reference": built})
     figures = table[table.blade == "this"].set_index("number").value
-    f1, f2 = reduced_frequencies(built.reduced, 0.0, 2)
+    f1, f2 = reduced_frequencies(reduced, 0.0, 2)
     expected = {"f1": f1 / 1.001, "f2_over_f1": f2 / f1 * 1.001 / 1.002, "stiffening": np.sqrt(1.48)}
     expected |= {"error_modes_1_to_6": 6e-3, "error_mode_7": 7e-3, "error_eq2": 7e-3, "coordinates": 24}
     expected["centrifugal_displacement"] = 1e-4

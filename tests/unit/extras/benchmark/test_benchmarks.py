@@ -132,11 +132,7 @@ VISCOPLASTIC = described_law("viscoplastic", {"viscosity": 1e4})
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "loop",
-    [plain.integrator, pytest.param(plain.compiled, marks=pytest.mark.nightly)],
-    ids=["numpy", "numba"],
-)
+@pytest.mark.parametrize("loop", [plain.integrator, pytest.param(plain.compiled, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize(
     ("E", "K", "theta", "law"),
     [

@@ -1,7 +1,6 @@
 import re
 
 import pandas as pd
-import pytest
 
 from bladerub.extras.cost.figure import cost
 from bladerub.extras.cost.forecast import forecast
@@ -16,8 +15,8 @@ RECORD = (
 )
 
 
-@pytest.fixture
-def benchmarks(tmp_path):
+def test_a_row_a_job_and_bars_in_minutes_and_megabytes(tmp_path):
+    (tmp_path / "coating").mkdir()
     for name, s, memory, cpu in (
         ("blade.tsv", 20.0, 480.0, 15.0),
         ("coating/2nd_E1.1_K0.5_theta0.tsv", 10.0, 190.0, 9.0),
@@ -26,41 +25,31 @@ def benchmarks(tmp_path):
         ("fig05_casing.tsv", 0.1, "-", "-"),
         ("somebody_elses.tsv", 99.0, 99.0, 99.0),
     ):
-        path = tmp_path / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(RECORD.format(s=s, memory=memory, cpu=cpu))
-    return tmp_path
-
-
-def test_a_row_a_job_and_bars_in_minutes_and_megabytes(benchmarks):
-    costs = table(benchmarks).set_index(["rule", "job"])
+        (tmp_path / name).write_text(RECORD.format(s=s, memory=memory, cpu=cpu))
+    costs = table(tmp_path).set_index(["rule", "job"])
     assert {*costs.index.names, *costs.columns} == {*COLUMNS}
     rub = costs.loc[("coating", "2nd_E2_K0.5_theta0.15")]
     assert (rub.stage, rub.wall_s, rub.cpu_s, rub.memory_mb) == ("rubs", 30.0, 21.0, 200.0)
     assert costs.loc[("blade", ""), "stage"] == "blade"
     assert len(costs) == 5
-    assert "somebody_elses" in set(table(benchmarks, ["somebody_elses"]).stage)
-    (benchmarks / "blade.tsv").write_text("s\th:m:s\tmax")
-    assert sorted(table(benchmarks).rule) == ["coating", "coating", "fig05_casing", "fig08_spectrum_soft"]
+    assert "somebody_elses" in set(table(tmp_path, ["somebody_elses"]).stage)
+    (tmp_path / "blade.tsv").write_text("s\th:m:s\tmax")
+    assert sorted(table(tmp_path).rule) == ["coating", "coating", "fig05_casing", "fig08_spectrum_soft"]
     of_stages = {"jobs": [1, 57], "cpu_s": [60.0, 540.0], "share": [0.1, 0.9], "memory_mb": [480.0, 190.0]}
     time, memory = cost(pd.DataFrame(of_stages, pd.Index(["blade", "rubs"], name="stage"))).axes
     assert [bar.get_width() for bar in time.patches] == [1.0, 9.0]
     assert [bar.get_width() for bar in memory.patches] == [480.0, 190.0]
 
 
-@pytest.fixture
-def study(config, monkeypatch):
-    """A study of which forty of a hundred runs of each coating are done."""
-    counts = dict.fromkeys(inventory.COUNTS, 0) | {"planned": 100, "done": 40}
-    monkeypatch.setattr(inventory, "take", lambda *_: (counts, []))
-    monkeypatch.setattr(inventory, "current_blade", lambda *_: (None, None))
-    return config | {"coatings": [{"casing": "2nd", "E": [1, 2], "K": [0.5], "theta": [0.0]}]}
-
-
 JOBS = [(rule, f"2nd_E{E}_K0.5_theta0") for E in (1, 2) for rule in ("coating", "map", "ensemble")]
 
 
-def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(study):
+def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatch):
+    """Of a study of which forty of a hundred runs of each coating are done."""
+    counts = dict.fromkeys(inventory.COUNTS, 0) | {"planned": 100, "done": 40}
+    monkeypatch.setattr(inventory, "take", lambda *_: (counts, []))
+    monkeypatch.setattr(inventory, "current_blade", lambda *_: (None, None))
+    study = config | {"coatings": [{"casing": "2nd", "E": [1, 2], "K": [0.5], "theta": [0.0]}]}
     study["solver"]["revolutions"] = 3600
     jobs = [("blade", None), *JOBS, ("fig11_Y4", None)]
     costs = costs_of(study)

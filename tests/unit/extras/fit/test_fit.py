@@ -10,23 +10,17 @@ from bladerub.io.errors import BadInput
 ROWS = ["0.01,5,1", "0.02,9,1", "0.03,10,1", "0.01,6,100", "0.02,11,100", "0.03,12,100"]
 
 
-@pytest.fixture
-def table(tmp_path):
-    def written(header, rows=ROWS):
+def test_a_curve_for_each_rate_in_si_by_the_units_given_and_bad_tables_are_named(tmp_path):
+    def table(header, rows=ROWS):
         path = tmp_path / "curves.csv"
         path.write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
         return path
 
-    return written
-
-
-def test_a_curve_for_each_rate_in_si_by_the_units_given_and_bad_tables_are_named(table):
     slow, fast = read(table("Strain [%], stress (MPa), rate (1/s)"))
     assert (slow.rate, fast.rate) == (1, 100)
     np.testing.assert_allclose(slow.strain, [1e-4, 2e-4, 3e-4])
     np.testing.assert_allclose(fast.stress, [6e6, 11e6, 12e6])
-    path = table("strain,stress (MPa),rate")
-    assert read(path, {"stress": "Pa"})[0].stress[0] == 5e6
+    assert read(table("strain,stress (MPa),rate"), {"stress": "Pa"})[0].stress[0] == 5e6
     assert read(table("strain,stress,rate"), {"stress": "kPa"})[0].stress[0] == 5e3
     for header, rows, words in (
         ("strain,force,rate", ROWS, "no column stress"),

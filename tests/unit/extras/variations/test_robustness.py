@@ -176,7 +176,6 @@ def measured(positions):
     )
 
 
-@pytest.fixture
 def emulated(positions, measured):
     return {name: Emulator(positions, values.to_numpy()) for name, values in measured.items()}
 
@@ -189,24 +188,24 @@ def test_the_first_wave_has_the_study_s_own_values_the_given_ones_and_a_spread(p
 
 
 def test_what_is_left_lies_where_the_targets_are_met_and_the_next_sets_there_far_from_each_other(
-    plan, emulated, positions, measured
+    plan, positions, measured
 ):
-    left = waves.remaining(plan, emulated)
+    emulators = emulated(positions, measured)
+    left = waves.remaining(plan, emulators)
     assert left.given_up == 0
     assert np.abs(left.points.mean(axis=0) - [0.3, 0.8]).max() < 0.05
     # three of 40 standard deviations on both sides, in both factors
     assert left.share == pytest.approx(0.15**2, rel=0.1)
     assert left.plausible["f4_soft"] == pytest.approx(0.15, rel=0.1)
-    drawn = waves.draw(plan, 1, left, emulated, positions)
+    drawn = waves.draw(plan, 1, left, emulators, positions)
     assert len(drawn) == waves.DRAWN
-    assert (without(predicted(emulated, drawn), left.given_up) <= 3).all()
+    assert (without(predicted(emulators, drawn), left.given_up) <= 3).all()
     first = drawn[:8]
     apart = np.linalg.norm(first[:, None] - first, axis=2)[~np.eye(8, dtype=bool)]
     assert apart.min() > 0.02
-    assert np.array_equal(drawn, waves.draw(plan, 1, left, emulated, positions))
+    assert np.array_equal(drawn, waves.draw(plan, 1, left, emulators, positions))
     nowhere = measured.assign(f6_straight=TARGET["f6_straight"].value + 1.0)
-    emulated = {name: Emulator(positions, values.to_numpy()) for name, values in nowhere.items()}
-    left = waves.remaining(plan, emulated)
+    left = waves.remaining(plan, emulated(positions, nowhere))
     assert left.given_up == 1
     assert left.share >= plan.remaining
     assert left.plausible["f6_straight"] == 0

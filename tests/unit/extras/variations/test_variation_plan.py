@@ -145,20 +145,14 @@ def sets_of(config):
     return {case.set: case.checked() for job in jobs for case in cases(config, listed, job, known(listed))}
 
 
-@pytest.fixture
-def asked(study, tmp_path):
-    def asking(text):
+def test_each_set_is_laid_over_what_is_common_and_that_over_a_file(study, tmp_path):
+    def asked(text):
         (tmp_path / "plan.yaml").write_text(text)
         return study | {"calibration": str(tmp_path / "plan.yaml")}
 
-    return asking
-
-
-def test_each_set_is_laid_over_what_is_common_and_that_over_a_file(study, asked, tmp_path):
     text = "common: {speeds: {start: 0.1}, contact: {damping_ratio: 1.0e-3}}\nsets:\n  as_it_is: {}\n"
     text += "  stiff: {contact: {modulus_unit: 400.0e+6}}\n  loose: {contact: {damping_ratio: 5e-3}}\n"
-    config = asked(text)
-    sets = sets_of(config)
+    sets = sets_of(asked(text))
     assert list(sets) == ["as_it_is", "stiff", "loose"]
     assert [config["contact"]["damping_ratio"] for config in sets.values()] == [1e-3, 1e-3, 5e-3]
     assert sets["stiff"]["contact"]["modulus_unit"] == 400e6
@@ -171,9 +165,8 @@ def test_each_set_is_laid_over_what_is_common_and_that_over_a_file(study, asked,
     assert {config["contact"]["damping_ratio"] for config in sets.values()} == {2e-3}
     with pytest.raises(ConfigError, match=r"plan.yaml:1: file = .*: cannot be read"):
         sets_of(asked(f"file: none.yaml\n{text}"))
-    config = asked("sets: {a: {contact: {damping_ratio: 2}}, c: {contact: {damping: 1}}}\n")
     with pytest.raises(ConfigError) as caught:
-        sets_of(config)
+        sets_of(asked("sets: {a: {contact: {damping_ratio: 2}}, c: {contact: {damping: 1}}}\n"))
     first, second = sorted(problem.text for problem in caught.value.problems)
     assert first.startswith("a: contact.damping_ratio = 2")
     assert second.startswith("c: contact.damping")

@@ -108,14 +108,12 @@ def test_speed_up_between_a_second_order_and_a_first_order_scheme():
     assert found == pytest.approx(expected)
 
 
-@pytest.fixture
-def compare(config):
-    return lambda outcome, reference: differences([outcome], [reference], config["analysis"])
-
-
 def test_each_difference_is_relative_to_the_reference_of_a_row_to_the_blade_that_vibrates_most(
-    make_result, compare, config
+    make_result, config
 ):
+    def compare(outcome, reference):
+        return differences([outcome], [reference], config["analysis"])
+
     reference = make_result(amplitude=1e-3, depth=2e-4)
     found = compare(make_result(amplitude=1.02e-3, depth=2.1e-4), reference)
     assert found == pytest.approx(Differences(wear_l2=0.05, peak=0.02, revolution_peak=0.02))
@@ -131,22 +129,15 @@ def test_each_difference_is_relative_to_the_reference_of_a_row_to_the_blade_that
     found = differences(row(1e-3, 2e-5), row(1e-3, 1e-5), config["analysis"])
     assert found == pytest.approx(Differences(0.0, 0.01, 0.01), rel=1e-6)
     one = row(1e-3, 1e-5)[0]
-    assert differences([one], [one], config["analysis"]) == Differences(0.0, 0.0, 0.0)
+    assert compare(one, one) == Differences(0.0, 0.0, 0.0)
 
 
 def run_with(f_omega, wear, peak=0.0, revolution_peak=0.0, **changes):
+    run = StudyRun(CoatingCase("2nd", 2.0, 0.5, 0.0), f_omega)
     error, fine = Differences(wear, peak, revolution_peak), Differences(0.001, 0.0, 0.0)
-    values = {
-        "run": StudyRun(CoatingCase("2nd", 2.0, 0.5, 0.0), f_omega),
-        "status": "completed",
-        "error": error,
-    }
-    values |= {
-        "against_paper": fine,
-        "paper_uncertainty": fine,
-        "spread": fine if max(error) > 0.01 else None,
-    }
-    values |= {"energy_residual": 1e-4, "seconds": Seconds(0.25, 1.0, 1.0, 4.0), "speedup": 7.0}
+    values = {"run": run, "status": "completed", "error": error, "energy_residual": 1e-4, "speedup": 7.0}
+    values |= {"against_paper": fine, "paper_uncertainty": fine, "seconds": Seconds(0.25, 1.0, 1.0, 4.0)}
+    values |= {"spread": fine if max(error) > 0.01 else None}
     return VerifiedRun(**values | changes)
 
 
@@ -168,12 +159,8 @@ def test_runs_beyond_tolerance_the_worst_first():
 def test_numbers_agree_within_twice_the_uncertainty_of_both(tmp_path):
     known = {"number": ["f1", "f2", "share"], "value": [100.0, 200.0, 0.25], "unit": ["Hz", "Hz", "1"]}
     known = pd.DataFrame(known).assign(uncertainty=[0.5, 1.0, 0.0])
-    for f1, uncertainty, agrees in (
-        (100.999, 0, True),
-        (99.001, 0, True),
-        (101.001, 0, False),
-        (102.599, 1.2, True),
-    ):
+    cases = ((100.999, 0, True), (99.001, 0, True), (101.001, 0, False), (102.599, 1.2, True))
+    for f1, uncertainty, agrees in cases:
         own = known.assign(value=[f1, 200.0, 0.25], uncertainty=[uncertainty, 0.0, 0.0])
         own = own if uncertainty else own.drop(columns=["unit", "uncertainty"])
         for folder, table in (("reference", known), ("own", own)):
