@@ -28,6 +28,7 @@ COMMANDS = {
     f"{RUN} --blade other.h5": "other.h5: not a reduced blade, 'mass' is missing",
     f"{RUN} --blade endless.h5": "endless.h5: not a reduced blade, mass has the shape (200000, 200000)",
     "verify --sample 1": "the following arguments are required: --seed",
+    "benchmark --nodes 16 33": "--nodes 33: must be from 4 to 32",
     "benchmark --config rigid.yaml": "coatings: must have an abradable one",
 }
 

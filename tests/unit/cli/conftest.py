@@ -1,3 +1,5 @@
+import json
+
 import pytest
 
 from bladerub.cli import inputs, main
@@ -37,15 +39,41 @@ def command(capsys):
 
 
 @pytest.fixture
-def at_home(folder, monkeypatch, command):
-    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
-    return command
+def figures(command):
+    """Give a command, which must succeed: what it prints as JSON."""
+
+    def give(*words):
+        code, out, err = command(*words, "--json")
+        assert code == 0, err
+        assert all(line.startswith(f"bladerub {words[0]}: ") for line in err.splitlines())
+        return json.loads(out)
+
+    return give
 
 
 @pytest.fixture
-def on_six_runs(folder, at_home):
+def refusal(command):
+    """Give a command, which must be refused by one line: that line."""
+
+    def give(*words):
+        code, out, err = command(*words)
+        assert (code, out, err.count("\n")) == (2, "", 1)
+        return err
+
+    return give
+
+
+@pytest.fixture
+def at_home(folder, monkeypatch):
+    """Let `folder` be the repository."""
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
+
+
+@pytest.fixture
+def six_runs(folder, at_home):
+    """Options for a study of six runs."""
     (folder / "six.yaml").write_text(COARSE + SHORT)
-    return lambda name, *words: at_home(name, "--config", folder / "six.yaml", *words)
+    return ["--config", folder / "six.yaml"]
 
 
 @pytest.fixture(autouse=True)

@@ -4,13 +4,12 @@ BLADERUB_BROKEN_FILES=250 draws so many blades, and as many laws, curves and tab
 of its own, whose signals are seen.
 """
 
-import multiprocessing
 import os
 import re
 import resource
 import shutil
+import subprocess
 import sys
-import traceback
 from collections import Counter
 from pathlib import Path
 
@@ -22,7 +21,6 @@ from bladerub.blade.discrete import by_finite_elements
 from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
-from bladerub.cli import main
 from bladerub.config.read import load
 from bladerub.contact import law
 from bladerub.extras.export.matrices import write_fe_matrices
@@ -33,9 +31,8 @@ CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 3}
 N_DRAWN = int(os.environ.get("BLADERUB_BROKEN_FILES", "12"))
 LONGEST = 240  # s
-MEMORY = 12 * 2**30
-PROCESSES = multiprocessing.get_context("forkserver")  # a fork of a process with threads may hang
-PROCESSES.set_forkserver_preload(["bladerub.cli"])
+MEMORY = (12 * 2**30,) * 2
+PROGRAM = Path(sys.executable).with_name("bladerub")
 WORDS = (b"nan", b"inf", b"1e160", b"-1", b"0", b"99999999", b"1e-300", b"x", b"", b"1,5", b"1;5")
 BLADES = ("blade.inp", "blade.msh", "blade.vtu", "blade.csv", "text", "archives")
 TEXTS = {"law.py": "check-law", "curves.csv": "fit-coating", "gap.csv": "config"}
@@ -119,24 +116,6 @@ def damage(path: Path, random: np.random.Generator) -> None:
     np.savez_compressed(path, **arrays)
 
 
-def read(command: list[str], said: Path) -> None:
-    """Give a command in this process, which ends."""
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    with said.open("w") as stream:
-        os.dup2(stream.fileno(), 1)
-        os.dup2(stream.fileno(), 2)
-        sys.stdout = sys.stderr = stream  # in place of those of pytest
-        try:
-            code = main(command)
-        except SystemExit as error:
-            code = error.code
-        except BaseException:
-            traceback.print_exc(file=stream)
-            code = 99
-        stream.flush()
-        os._exit(code or 0)
-
-
 def tried(sound: Path, folder: Path, seed: int, name: str, command: str, *options: str) -> str | None:
     """Damage a copy of a sound file and give the command that reads it; return its answer if it is bad.
 
@@ -150,19 +129,16 @@ def tried(sound: Path, folder: Path, seed: int, name: str, command: str, *option
     if not is_sound:
         damage(folder / name, np.random.default_rng(seed))
     file = folder / ("study.yaml" if command == "config" else name)
-    process = PROCESSES.Process(target=read, args=([command, str(file), *options], folder / "said"))
-    process.start()
-    process.join(LONGEST)
-    if process.is_alive():
-        process.kill()
-        process.join()
-    said = (folder / "said").read_text(errors="replace")
-    refused_well = not is_sound and process.exitcode == 2 and len(said.splitlines()) == 1
-    wrong_law = process.exitcode == 1 and command == "check-law"
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "errors": "replace"}
+    limits = {"timeout": LONGEST, "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, MEMORY)}
+    done = subprocess.run([PROGRAM, command, file, *options], **streams, **limits)
+    code, said = done.returncode, done.stdout
+    refused_well = not is_sound and code == 2 and len(said.splitlines()) == 1
+    wrong_law = code == 1 and command == "check-law"
     shutil.rmtree(folder)
-    print(f"{name:10} exit {process.exitcode}")
-    if "Traceback" in said or "Warning" in said or not (process.exitcode == 0 or refused_well or wrong_law):
-        return f"{seed} {name}: exit {process.exitcode}, {said[-1500:]}"
+    print(f"{name:10} exit {code}")
+    if "Traceback" in said or "Warning" in said or not (code == 0 or refused_well or wrong_law):
+        return f"{seed} {name}: exit {code}, {said[-1500:]}"
     return None
 
 

@@ -1,4 +1,3 @@
-import json
 import xml.etree.ElementTree as ET
 
 import meshio
@@ -25,11 +24,9 @@ def folder(folder):
 
 
 @pytest.fixture
-def export(folder, at_home):
-    def give(vtu, *more, run=folder / "run.h5"):
-        return at_home("export", "--run", run, "--vtu", vtu, "--config", folder / "small.yaml", *more)
-
-    return give
+def words(folder, at_home):
+    """The words of the command up to the folder that it writes to."""
+    return ["export", "--run", folder / "run.h5", "--config", folder / "small.yaml", "--vtu"]
 
 
 def collection(folder):
@@ -37,9 +34,9 @@ def collection(folder):
     return [(entry.get("file"), float(entry.get("timestep")), entry.get("part")) for entry in entries]
 
 
-def test_node_1_moves_as_in_the_history_of_the_run(export, folder):
+def test_node_1_moves_as_in_the_history_of_the_run(words, figures, folder):
     motion = folder / "new" / "motion"
-    assert export(motion, "--samples", "40")[0] == 0
+    figures(*words, motion, "--samples", "40")
     blade = read_reduced_blade(folder / "results" / "blade" / "reduced_model.h5")
     data, _ = hdf5.read(folder / "results" / "blade" / "mesh.h5")
     history = hdf5.read(folder / "run.h5")[0]["radial_displacement"]
@@ -56,31 +53,28 @@ def test_node_1_moves_as_in_the_history_of_the_run(export, folder):
         assert radial == pytest.approx(in_run, abs=2e-3 * np.abs(history).max())
 
 
-def test_figures_as_json(export, tmp_path, folder):
-    code, out, err = export(tmp_path / "motion", "--samples", "2", "--json")
-    assert (code, err) == (0, "")
-    figures = json.loads(out)
+def test_figures_as_json(words, figures, tmp_path, folder):
+    told = figures(*words, tmp_path / "motion", "--samples", "2")
     files = list((tmp_path / "motion").iterdir())
-    assert figures["bytes"] == sum(file.stat().st_size for file in files)
-    assert (figures["samples"], figures["revolution"]) == (2, 2)
+    assert told["bytes"] == sum(file.stat().st_size for file in files)
+    assert (told["samples"], told["revolution"]) == (2, 2)
     data = [meshio.read(file) for file in files if file.suffix == ".vtu"]
     np.testing.assert_array_equal(data[0].points, hdf5.read(folder / "results/blade/mesh.h5")[0]["points"])
     moved = [np.linalg.norm(mesh.point_data["displacement"], axis=1).max() for mesh in data]
-    assert figures["largest_displacement"] == pytest.approx(max(moved))
+    assert told["largest_displacement"] == pytest.approx(max(moved))
     for name in ("von_mises", "principal"):
         at = np.array([mesh.point_data[name] for mesh in data])
-        assert figures[f"largest_{name}"] == pytest.approx(at.max())
+        assert told[f"largest_{name}"] == pytest.approx(at.max())
         node = np.unravel_index(at.argmax(), at.shape)[1]
-        np.testing.assert_allclose(figures[f"largest_{name}_at"], data[0].points[node])
+        np.testing.assert_allclose(told[f"largest_{name}_at"], data[0].points[node])
 
 
-def test_a_row_of_blades_is_shown_with_its_coating(export, tmp_path, folder):
+def test_a_row_of_blades_is_shown_with_its_coating(words, command, figures, tmp_path, folder):
     run, blades = tmp_path / "row.h5", ["--blades", "3", "--length-scatter", "5e-5", "--coupling", "0.01"]
-    config = ["--config", str(folder / "small.yaml")]
-    assert main(["run", *RUN, *blades, *config, "--output", str(run)]) == 0
-    code, out, _ = export(tmp_path / "motion", "--samples", "2", "--json", run=run)
-    figures = json.loads(out)
-    assert (code, figures["blades"], figures["revolution"]) == (0, 3, 2)
+    config = ["--config", folder / "small.yaml"]
+    assert command("run", *RUN, *blades, *config, "--output", run)[0] == 0
+    told = figures(*words, tmp_path / "motion", "--samples", "2", "--run", run)
+    assert (told["blades"], told["revolution"]) == (3, 2)
     names = [f"{name}_000{number}.vtu" for number in (1, 2) for name in ("blade", "coating")]
     parts = [(name, part) for name, _, part in collection(tmp_path / "motion")]
     assert parts == list(zip(names, "0101", strict=True))
@@ -96,11 +90,11 @@ def test_a_row_of_blades_is_shown_with_its_coating(export, tmp_path, folder):
     # after whole revolutions the first element is back where the first blade was
     first = coating.points.reshape(8, 2000, 3)[0, 0]
     assert np.arctan2(first[1], first[2]) == pytest.approx(np.pi / 2000)
-    arguments = ["export", "--run", str(run), *config, "--samples", "3", "--animation"]
-    assert main([*arguments, str(tmp_path / "row.gif")]) == 0
+    animation = ["export", "--run", run, *config, "--samples", "3", "--animation"]
+    assert command(*animation, tmp_path / "row.gif")[0] == 0
     with Image.open(tmp_path / "row.gif") as image:
         assert image.n_frames == 3
-    assert [main([*arguments, str(tmp_path / name)]) for name in ("row.gif", "row.mp4")] == [2, 2]
+    assert [command(*animation, tmp_path / name)[0] for name in ("row.gif", "row.mp4")] == [2, 2]
 
 
 def changed(run, path, **attributes):
@@ -113,30 +107,26 @@ def changed(run, path, **attributes):
     return path
 
 
-def test_a_run_that_left_all_bounds_is_shown_until_then(export, tmp_path, folder):
+def test_a_run_that_left_all_bounds_is_shown_until_then(words, figures, tmp_path, folder):
     run = changed(folder / "run.h5", tmp_path / "run.h5", status="unbounded")
-    code, out, _ = export(tmp_path / "motion", "--samples", "1", "--json", run=run)
-    assert (code, json.loads(out)["revolution"]) == (0, 1)
+    assert figures(*words, tmp_path / "motion", "--samples", "1", "--run", run)["revolution"] == 1
 
 
 @pytest.mark.parametrize(
     ("attributes", "said"), [({"E": 2.5}, "its run_key differs"), ({"peak": 1}, "its peaks differ by")]
 )
-def test_a_run_of_something_else_is_refused(export, tmp_path, folder, attributes, said):
+def test_a_run_of_something_else_is_refused(words, refusal, tmp_path, folder, attributes, said):
     run = changed(folder / "run.h5", tmp_path / "run.h5", **attributes)
-    code, out, err = export(tmp_path / "motion", run=run)
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert err.startswith(f"bladerub export: --run {run}: ")
-    assert said in err
+    line = refusal(*words, tmp_path / "motion", "--run", run)
+    assert line.startswith(f"bladerub export: --run {run}: ")
+    assert said in line
     assert not (tmp_path / "motion").exists()
 
 
-def test_a_mesh_that_is_not_that_of_the_blade_is_refused(export, tmp_path, folder):
-    blade, mesh = tmp_path / "reduced_model.h5", tmp_path / "mesh.h5"
-    blade.write_bytes((folder / "results" / "blade" / "reduced_model.h5").read_bytes())
-    changed(folder / "results" / "blade" / "mesh.h5", mesh)
+def test_a_mesh_that_is_not_that_of_the_blade_is_refused(words, refusal, tmp_path, folder):
+    blade, mesh = (tmp_path / name for name in ("reduced_model.h5", "mesh.h5"))
+    for path in (blade, mesh):
+        path.write_bytes((folder / "results" / "blade" / path.name).read_bytes())
     with edited(mesh) as file:
         file["points"][...] *= 1.01
-    code, _, err = export(tmp_path / "motion", "--blade", str(blade))
-    assert (code, err.count("\n")) == (2, 1)
-    assert f"{mesh}: is not the mesh" in err
+    assert f"{mesh}: is not the mesh" in refusal(*words, tmp_path / "motion", "--blade", blade)

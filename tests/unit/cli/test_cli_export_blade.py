@@ -1,5 +1,3 @@
-import json
-
 import meshio
 import numpy as np
 import pytest
@@ -9,22 +7,21 @@ from bladerub.io import hdf5
 
 
 @pytest.fixture
-def export(folder, at_home):
-    return lambda *more: at_home("export", "--config", folder / "small.yaml", *more)
+def export(folder, at_home, figures):
+    return lambda *words: figures("export", "--config", folder / "small.yaml", *words)
 
 
 def test_decks_are_written_for_three_speeds_or_those_named(export, tmp_path):
-    code, out, _ = export("--calculix", tmp_path / "decks", "--json")
-    assert code == 0
     names = ["blade_0.0000.inp", "blade_0.2000.inp", "blade_0.4000.inp"]
-    assert json.loads(out)["files"] == [str(tmp_path / "decks" / name) for name in names]
-    assert export("--calculix", tmp_path / "one", "--speeds", "0.3")[0] == 0
+    written = export("--calculix", tmp_path / "decks")["files"]
+    assert written == [str(tmp_path / "decks" / name) for name in names]
+    export("--calculix", tmp_path / "one", "--speeds", "0.3")
     assert [path.name for path in (tmp_path / "one").iterdir()] == ["blade_0.3000.inp"]
 
 
 @pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
 def test_the_mesh_is_that_of_the_blade_with_its_sets(export, folder, tmp_path, name):
-    assert export("--mesh", tmp_path / name)[0] == 0
+    export("--mesh", tmp_path / name)
     content = mesh_file.read(tmp_path / name)
     mesh, _ = hdf5.read(folder / "results" / "blade" / "mesh.h5")
     np.testing.assert_array_equal(content.points, mesh["points"])
@@ -39,17 +36,15 @@ def test_the_mesh_is_that_of_the_blade_with_its_sets(export, folder, tmp_path, n
         np.testing.assert_array_equal(data["centrifugal_0.4000"], mesh["static_displacement"][-1])
 
 
-def test_what_cannot_be_written_is_told(export, tmp_path):
-    code, out, err = export("--calculix", tmp_path, "--speeds", "0.5")
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert "--speeds 0.5: must be from 0 to 0.4 (normalised)" in err
+def test_what_cannot_be_written_is_told(at_home, folder, refusal, tmp_path):
+    deck = ("--calculix", tmp_path, "--speeds", "0.5")
+    line = refusal("export", "--config", folder / "small.yaml", *deck)
+    assert "--speeds 0.5: must be from 0 to 0.4 (normalised)" in line
     assert not list(tmp_path.iterdir())
 
 
-def test_sections_need_no_blade_and_come_in_two_coordinates(export, folder, tmp_path):
-    code, out, _ = export("--sections", tmp_path / "blade.csv", "--json")
-    assert code == 0
-    assert json.loads(out)["stations"] == 21 * 61
-    assert export("--sections", tmp_path / "blade.txt", "--coordinates", "cylindrical")[0] == 0
+def test_sections_need_no_blade_and_come_in_two_coordinates(export, tmp_path):
+    assert export("--sections", tmp_path / "blade.csv")["stations"] == 21 * 61
+    export("--sections", tmp_path / "blade.txt", "--coordinates", "cylindrical")
     headers = [(tmp_path / name).read_text().splitlines()[1] for name in ("blade.csv", "blade.txt")]
     assert headers == ["section,x1,y1,z1,x2,y2,z2", "section,z,r,theta1,theta2"]

@@ -1,6 +1,5 @@
 """``bladerub export --fe-matrices`` and ``bladerub import`` of what it writes."""
 
-import json
 import shutil
 
 import meshio
@@ -20,27 +19,24 @@ def written(folder):
     return folder
 
 
-def test_what_is_written_can_be_looked_at(written, command):
+def test_what_is_written_can_be_looked_at(written, figures):
     names = {path.stem for path in (written / "m").iterdir()} - {"nodes", "mass"}
     assert names == {f"stiffness_{name}" for name in ("rest", "at_0.1", "half", "at_0.3", "max")}
-    code, out, _ = command("import", written / "m", "--json")
-    figures = json.loads(out)
-    assert code == 0
-    assert figures["f1_hz"] == pytest.approx(195.313, abs=1e-3)
-    assert figures["length"] == pytest.approx(0.2, rel=0.01)
-    assert figures["warnings"] == []
+    told = figures("import", written / "m")
+    assert told["f1_hz"] == pytest.approx(195.313, abs=1e-3)
+    assert told["length"] == pytest.approx(0.2, rel=0.01)
+    assert told["warnings"] == []
     axes = {"rotation": "-x", "downstream": "x", "radial": "z"}
-    assert figures["config"]["blade"]["source"] == {"matrices": str(written / "m"), "unit": "m", **axes}
+    assert told["config"]["blade"]["source"] == {"matrices": str(written / "m"), "unit": "m", **axes}
 
 
-def test_what_it_prints_is_a_config_of_the_blade(written, command, tmp_path):
+def test_what_it_prints_is_a_config_of_the_blade(written, command, refusal, tmp_path):
     code, out, _ = command("import", written / "m", "--matrix-units", "inch-lbf")
     assert code == 0
     assert "warning             its mass is" in out
     (tmp_path / "printed.yaml").write_text(out.split("are absolute\n")[1])
     assert command("import", written / "m", "--config", tmp_path / "printed.yaml") == (0, out, "")
-    code, out, err = command("import", written / "m", "--omega-max", "400")
-    assert (code, out, err.count("\n")) == (2, "", 1)
+    refusal("import", written / "m", "--omega-max", "400")
 
 
 @pytest.fixture
@@ -53,7 +49,7 @@ def study(written, tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_a_blade_without_elements_goes_to_programs_that_need_none(study, command):
+def test_a_blade_without_elements_goes_to_programs_that_need_none(study, command, refusal):
     words = ("export", "--config", study / "mine.yaml")
     assert command(*words, "--mesh", study / "blade.vtu")[0] == 0
     mesh = meshio.vtu.read(study / "blade.vtu")
@@ -65,8 +61,7 @@ def test_a_blade_without_elements_goes_to_programs_that_need_none(study, command
     assert command(*words, "--matrices", study / "blade.npz")[0] == 0
     before = sorted(study.iterdir())
     for option, name in (("--calculix", "decks"), ("--mesh", "blade.inp"), ("--fe-matrices", "again")):
-        code, out, err = command(*words, option, study / name)
-        assert (code, out, err.count("\n")) == (2, "", 1)
-        assert "of matrices" in err
-        assert "without elements" in err
+        line = refusal(*words, option, study / name)
+        assert "of matrices" in line
+        assert "without elements" in line
     assert sorted(study.iterdir()) == before
