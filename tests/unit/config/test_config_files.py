@@ -117,15 +117,13 @@ def test_keys_and_values_are_written_on_one_short_line():
         ("contact: {law: {name: viscoplastic, viscosity: 1:30.5}}", "90.5", "contact.law.viscosity"),
     ],
 )
-def test_a_number_that_yaml_reads_otherwise_is_refused(tmp_path, text, reading, key):
+def test_a_number_that_yaml_reads_otherwise_is_refused(tmp_path, problems, text, reading, key):
     """As in files, so after ``--config``, where Snakemake leaves numbers as text."""
     over = tmp_path / "over.yaml"
     over.write_text(text)
     given = yaml.load(text, Loader=yaml.BaseLoader)
     for paths, command_line, where in (((STUDY, over), None, f"{over}:1"), ((STUDY,), given, "--config")):
-        with pytest.raises(ConfigError) as error:
-            read(*paths, command_line=command_line)
-        (problem,) = error.value.problems
+        (problem,) = problems(*paths, by=read, command_line=command_line)
         assert str(problem).startswith(f"{where}: {key} = ")
         assert reading in problem.text
 

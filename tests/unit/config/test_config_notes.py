@@ -1,7 +1,7 @@
 import pytest
 import yaml
 
-from bladerub.config.errors import UNKNOWN, ConfigError
+from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.config.read import read_with_notes
 from bladerub.io.folders import ROOT
@@ -43,20 +43,17 @@ def test_histories_of_replaced_coatings_and_speeds_are_left_out_with_one_note(
     assert [f for f in speeds(config) if any(keeps_history(config, case, f) for case in cases)] == kept
 
 
-def test_a_mistake_in_a_casing_is_reported_without_the_histories_of_replaced_coatings(laid_over):
+def test_a_mistake_in_a_casing_is_reported_without_the_histories_of_replaced_coatings(laid_over, problems):
     content = on_casing(nodal_diameters=[3])
     del content["casings"]["own"]["start_angle"]
-    with pytest.raises(ConfigError) as error:
-        laid_over(content)
-    (problem,) = error.value.problems
+    (problem,) = problems(content, by=laid_over)
     assert problem.text.startswith("casings.own.start_angle: missing")
 
 
-def test_a_history_that_the_file_itself_lists_is_still_an_error(laid_over):
+def test_a_history_that_the_file_itself_lists_is_still_an_error(laid_over, problems):
     lost = {"casing": "2nd", "E": 7, "K": 0.5, "theta": 0.0, "f_omega": 0.19}
-    with pytest.raises(ConfigError) as error:
-        laid_over(OTHER_COATING | {"analysis": {"histories": [lost]}}, results="elsewhere")
-    (problem,) = error.value.problems
+    content = OTHER_COATING | {"analysis": {"histories": [lost]}}
+    (problem,) = problems(content, by=laid_over, results="elsewhere")
     assert problem.location.source.endswith("my.yaml")
     assert problem.text.startswith("analysis.histories[0] = 2nd_E7_K0.5_theta0")
 

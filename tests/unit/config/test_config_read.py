@@ -1,4 +1,3 @@
-import copy
 from pathlib import Path
 from unittest.mock import Mock
 
@@ -12,31 +11,12 @@ from bladerub.config.record import Record
 from bladerub.io.folders import ROOT
 
 STUDY = ROOT / "config" / "config.yaml"
-PAPER = load(STUDY)
-
-
-@pytest.fixture
-def config():
-    return copy.deepcopy(PAPER)
-
-
-def problems(config):
-    with pytest.raises(ConfigError) as error:
-        validate(config)
-    return [problem.text for problem in error.value.problems]
 
 
 @pytest.mark.parametrize("over", [[], ["quick.yaml"], ["twisted_plate.yaml"]])
 def test_configs_of_the_repository_are_valid(over):
     config = load(STUDY, *(STUDY.with_name(name) for name in over))
     assert validate(config) == config
-
-
-@pytest.mark.parametrize("name", ["..", "/tmp", "", "$(touch x)", "src", "README.md/runs"])
-def test_results_stay_below_the_repository(config, name):
-    config["results"] = name
-    (problem,) = problems(config)
-    assert problem.startswith("results = ")
 
 
 @pytest.mark.parametrize(
@@ -47,45 +27,31 @@ def test_results_stay_below_the_repository(config, name):
         ({"E": [3], "friction": [0.1]}, "coatings[0].K: missing"),
     ],
 )
-def test_each_kind_of_coating_has_keys_of_its_own(config, entry, start):
+def test_each_kind_of_coating_has_keys_of_its_own(config, problems, entry, start):
     config["coatings"], config["analysis"]["histories"] = [entry | {"casing": "2nd"}], []
-    assert [problem.startswith(start) for problem in problems(config)] == [True]
+    assert [problem.text.startswith(start) for problem in problems(config)] == [True]
 
 
-def test_a_plan_that_nobody_can_compute_is_refused_before_it_is_made(config):
-    thousand = [*range(1, 1001)]
-    config["analysis"]["histories"] = []
-    config["coatings"] = [{"casing": "2nd", "E": thousand, "K": thousand, "theta": [0.0]}]
-    assert [problem[:13] for problem in problems(config)] == ["coatings[0]: "]
-
-
-def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
+def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, problems, tmp_path):
     for name in ("blade.csv", "blade.msh"):
         (tmp_path / name).write_text("anything")
     config["blade"]["mesh"] = {"chordwise": 4, "thickness": 1, "spanwise": 2}
     config["blade"]["source"] = {"file": str(tmp_path / "blade.msh"), "root_set": "ROOT"}
     validate(config)
     config["blade"]["source"] = {"file": str(tmp_path / "blade.csv")}
-    assert [problem.split(":")[0] for problem in problems(config)] == ["blade.mesh.chordwise = 4"]
+    assert [problem.text.split(":")[0] for problem in problems(config)] == ["blade.mesh.chordwise = 4"]
     config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
-    assert [problem.split(":")[0] for problem in problems(config)] == ["blade.mesh"]
+    assert [problem.text.split(":")[0] for problem in problems(config)] == ["blade.mesh"]
     config["blade"]["source"]["root_set"] = "ROOT"
-    assert [problem.split(":")[0] for problem in problems(config)] == ["blade.source.root_set = ROOT"]
+    assert [problem.text.split(":")[0] for problem in problems(config)] == ["blade.source.root_set = ROOT"]
 
 
-def test_of_thousands_of_problems_forty_are_reported(config):
+def test_of_thousands_of_problems_forty_are_reported(config, problems):
     config["speeds"]["extra"] = [-1] * 9000
-    with pytest.raises(ConfigError) as error:
-        validate(config)
-    assert len(str(error.value).splitlines()) == 41
-    assert str(error.value).endswith("config: and 8960 problems more")
-    assert "more" not in str(ConfigError(error.value.problems[:40]))
-
-
-@pytest.mark.parametrize("rotor", [{"blades": 200}, {"blades": 36, "angle_error": [0.0] * 35 + [-0.17]}])
-def test_rows_that_no_run_can_compute_are_refused(config, rotor):
-    config["rotor"], config["contact"]["damping_ratio"] = rotor, 0.01
-    assert problems(config)[0].startswith(f"rotor.blades = {rotor['blades']}: ")
+    found = problems(config)
+    lines = str(ConfigError(found)).splitlines()
+    assert (len(lines), lines[-1]) == (41, "config: and 8960 problems more")
+    assert "more" not in str(ConfigError(found[:40]))
 
 
 def test_central_differences_are_checked_by_the_blade_that_is_built(config, monkeypatch):
