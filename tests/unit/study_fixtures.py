@@ -132,11 +132,27 @@ def repeated():
 
 
 @pytest.fixture
-def simulated(monkeypatch, make_result, growing, repeated):
+def solve_by(monkeypatch):
+    """Put a stand-in, ``simulate(spec)``, in the place of the solver."""
+
+    def patch(simulate):
+        def simulate_longer(blade, spec, longer, progress=None):
+            results = [simulate(spec)]
+            if revolutions := longer(results[0]):
+                results.append(simulate(replace(spec, revolutions=revolutions)))
+            return results
+
+        monkeypatch.setattr("bladerub.contact.run.simulate_longer", simulate_longer)
+
+    return patch
+
+
+@pytest.fixture
+def simulated(solve_by, make_result, growing, repeated):
     """Stand in for the solver, and list the speeds it was asked for."""
     speeds = []
 
-    def simulate(blade, spec, progress=None):
+    def simulate(spec):
         (speeds if spec.revolutions == 20 else repeated).append(spec.f_omega)
         return make_result(
             revolutions=spec.revolutions,
@@ -144,7 +160,7 @@ def simulated(monkeypatch, make_result, growing, repeated):
             complete=1.5 if spec.f_omega == 0.3 else None,
         )
 
-    monkeypatch.setattr("bladerub.contact.run.simulate", simulate)
+    solve_by(simulate)
     return speeds
 
 

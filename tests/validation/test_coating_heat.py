@@ -6,13 +6,15 @@ of a half-space that is warmer by T₀ at the start keeps of it the mean
 slowest mode decays at the rate ``α π² / (4 H²)``.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.special import erf
 
 from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import module_of
-from bladerub.contact.run import simulate
+from bladerub.contact.run import simulate, simulate_longer
 from bladerub.contact.setup import element_area
 from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
@@ -76,6 +78,9 @@ def test_what_the_ledger_has_as_heat_is_in_the_layer(spec, coarse_blade):
     result = simulate(coarse_blade, spec)
     assert result.layer["temperature_rise"].max() > 10
     assert kept_share(result, [result], coarse_blade, spec) == pytest.approx(1, rel=1e-3)
+    _, longer = simulate_longer(coarse_blade, replace(spec, revolutions=2), lambda _: spec.revolutions)
+    for name, rows in longer.layer.items():
+        np.testing.assert_array_equal(rows, result.layer[name])
 
 
 def test_blades_of_a_row_heat_one_layer(spec, coarse_blade):

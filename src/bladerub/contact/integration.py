@@ -27,12 +27,21 @@ class History:
 
     def __init__(self, revolutions: int, n_elements: int):
         # Radial displacement of node 1, mean over the passage of each element, m
-        self.displacement = np.full((revolutions, n_elements), np.nan)
+        self.displacement = np.empty((0, n_elements))
         # Range of that displacement in each revolution, m
-        self.lowest, self.highest = np.full((2, revolutions), np.nan)
+        self.lowest, self.highest = np.empty((2, 0))
+        self.extend(revolutions)
         self.n_steps = self.n_contact_steps = 0
         self.revolutions_made = 0.0
         self.is_within_limit = True
+
+    def extend(self, revolutions: int) -> None:
+        """Make room for so many revolutions in all."""
+        more = revolutions - len(self.displacement)
+        self.displacement = np.pad(self.displacement, ((0, more), (0, 0)), constant_values=np.nan)
+        self.lowest, self.highest = (
+            np.pad(end, (0, more), constant_values=np.nan) for end in (self.lowest, self.highest)
+        )
 
     def enter(self, progress: Progress, segment: Segment) -> None:
         """Enter what was integrated of a segment."""
@@ -80,17 +89,14 @@ class History:
 
 
 def integrate(
-    segments: Iterable[Segment],
-    revolutions: int,
-    n_elements: int,
-    progress: Callable[[int], None] | None = None,
-) -> History:
-    """Integrate consecutive segments, until the last or until a displacement exceeds the limit.
+    segments: Iterable[Segment], history: History, progress: Callable[[int], None] | None = None
+) -> None:
+    """Integrate consecutive segments into `history`, until the last or a displacement exceeds the limit.
 
     Each segment is asked for when those before are done; `progress` is called with the number of revolutions
     done after each of them.
     """
-    history = History(revolutions, n_elements)
+    n_elements = history.displacement.shape[1]
     for segment in segments:
         simulation, revolution, first, last = segment
         result = simulation.advance(history.displacement[revolution, first:last], first)
@@ -99,4 +105,3 @@ def integrate(
             break
         if progress is not None and last == n_elements:
             progress(revolution + 1)
-    return history

@@ -1,4 +1,4 @@
-"""One run from rest: `RunSpec` → `RunResult`."""
+"""Runs from rest: `RunSpec` → `RunResult`."""
 
 from collections.abc import Callable
 
@@ -32,12 +32,43 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     revolutions done after each of them. What was computed until a displacement exceeded the limit is kept.
     Raises `ValueError` if the speed is outside the range of the blade, or the step too long for the scheme.
     """
-    n_elements, revolutions = spec.coating.n_elements, spec.revolutions
-    rule, simulation = set_up(blade, spec)
-    initial = sum(energy.blade_energy(rule, simulation.state))
-    segments = (Segment(simulation, revolution, 0, n_elements) for revolution in range(revolutions))
-    history = integrate(segments, revolutions, n_elements, progress)
-    return run_result(blade, spec, rule, simulation, history, initial)
+    return _Run(blade, spec).integrate(spec.revolutions, progress)
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")
+def simulate_longer(
+    blade: ReducedBlade,
+    spec: RunSpec,
+    longer: Callable[[RunResult], int],
+    progress: Callable[[int], None] | None = None,
+) -> list[RunResult]:
+    """Simulate a run as `simulate`, and on to so many revolutions as ``longer(result)`` says, if any.
+
+    Returns the run, then the longer one if there is, which is that from rest to the last bit.
+    """
+    run = _Run(blade, spec)
+    results = [run.integrate(spec.revolutions, progress)]
+    if revolutions := longer(results[0]):
+        results.append(run.integrate(revolutions, progress))
+    return results
+
+
+class _Run:
+    """A run, integrated as far as it was asked for."""
+
+    def __init__(self, blade: ReducedBlade, spec: RunSpec):
+        self.blade, self.spec = blade, spec
+        self.rule, self.simulation = set_up(blade, spec)
+        self.initial = sum(energy.blade_energy(self.rule, self.simulation.state))
+        self.history = History(0, spec.coating.n_elements)
+
+    def integrate(self, revolutions: int, progress: Callable[[int], None] | None) -> RunResult:
+        """Integrate up to the end of so many revolutions."""
+        n_elements, done = self.spec.coating.n_elements, len(self.history.displacement)
+        self.history.extend(revolutions)
+        segments = (Segment(self.simulation, n, 0, n_elements) for n in range(done, revolutions))
+        integrate(segments, self.history, progress)
+        return run_result(self.blade, self.spec, self.rule, self.simulation, self.history, self.initial)
 
 
 def run_result(

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
 from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
 from bladerub.io.provenance import provenance
@@ -29,7 +30,7 @@ LOCK = ".lock"
 class RunDone:
     """Report of one computed run, whose string is a line for a log."""
 
-    number: int  # of the `total` that had to be computed, longer ones counted separately
+    number: int  # of the `total` to be computed, to which each longer one is added as it is begun
     total: int
     file: str
     status: str
@@ -72,21 +73,26 @@ def compute_missing(
 ) -> list[ManifestRow]:
     """Compute those runs of one coating whose file is missing or stale; return the rows of its manifest.
 
-    A run that grows is then repeated, if the `plan` follows growth, for as many revolutions as the config has
-    for its confirmation (see `bladerub.study.growth`). Each run is written as soon as it is done, so an
-    interrupted job continues where it stopped. Runs that are no longer planned stay, stale ones are archived
-    (`bladerub.study.cache`, whose `blade_digest` is that of the blade). One job at a time works on a folder:
-    another, of another invocation, waits for its end and takes over what it has computed. `report` is called
-    with a line for a log: a `RunDone` after each computed run, or a text before waiting. `threads` runs are
-    computed at once, or all together by a solver that does so (`bladerub.study.solver`).
+    A run that grows is followed, if the `plan` follows growth, for as many revolutions as the config has for
+    its confirmation (see `bladerub.study.growth`). Each run is written as soon as it and its longer one are
+    done, so an interrupted job continues where it stopped. Runs that are no longer planned stay, stale ones
+    are archived (`bladerub.study.cache`, whose `blade_digest` is that of the blade). One job at a time works
+    on a folder: another, of another invocation, waits for its end and takes over what it has computed.
+    `report` is called with a line for a log: a `RunDone` after each computed run, or a text before waiting.
+    `threads` runs are computed at once, or all together by a solver that does so (`bladerub.study.solver`).
     """
     folder = Path(folder)
     complete = partial(_complete, config, plan.case, blade, folder, blade_digest, report, threads)
+
+    def missing_longer(run: PlannedRun, end: _End) -> PlannedRun | None:
+        longer = _longer(config, plan, run, end)
+        return None if longer is None or _entry(folder, longer, blade_digest).fetch() else longer
+
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
-        run_files = complete(plan.runs)
-        longer = complete(_longer(config, plan, {file: run_file.end for file, run_file in run_files.items()}))
+        files = complete(plan.runs, missing_longer)
+        files |= complete(_not_begun(config, plan, {file: each.end for file, each in files.items()}))
         key = growth_key(config)
-        return [_row(run, run_files[run.file], longer.get(longer_file(run)), key) for run in plan.runs]
+        return [_row(run, files[run.file], files.get(longer_file(run)), key) for run in plan.runs]
 
 
 def compute_all(
@@ -103,18 +109,17 @@ def compute_all(
     Returns the runs of the `plan` in its order, and the longer run of each or None. `report` is called with
     the lines of the solver for a log, `advance` after each run of the plan.
     """
-
-    def complete(runs: Sequence[PlannedRun], advance: Callable[[], object]) -> dict[str, StoredRun]:
-        computed = {}
-        for run, stored, _ in _each_computed(config, plan.case, blade, runs, blade_digest, report, threads):
-            computed[run.file] = stored
+    each_computed = partial(_each_computed, config, plan.case, blade, blade_digest, report, threads)
+    stored_runs, files = {}, {run.file for run in plan.runs}
+    for run, stored, _ in each_computed(plan.runs, partial(_longer, config, plan)):
+        stored_runs[run.file] = stored
+        if run.file in files:
             advance()
-        return computed
-
-    stored_runs = complete(plan.runs, advance)
     ends = {file: _end(stored) for file, stored in stored_runs.items()}
-    longer = complete(_longer(config, plan, ends), lambda: None)
-    return [stored_runs[run.file] for run in plan.runs], [longer.get(longer_file(run)) for run in plan.runs]
+    stored_runs |= {run.file: stored for run, stored, _ in each_computed(_not_begun(config, plan, ends))}
+    return [stored_runs[run.file] for run in plan.runs], [
+        stored_runs.get(longer_file(run)) for run in plan.runs
+    ]
 
 
 def compute(
@@ -156,11 +161,20 @@ def _row(run: PlannedRun, run_file: _RunFile, longer: _RunFile | None, growth_ke
     )
 
 
-def _longer(config: Mapping[str, Any], plan: CoatingPlan, ends: Mapping[str, _End]) -> list[PlannedRun]:
-    """Plan the longer runs of those that grow, if the plan follows growth; `ends` are by file."""
-    settings = config["analysis"]["divergence"]
-    growing = [run for run in plan.runs if plan.follow and needs_confirmation(*ends[run.file], settings)]
-    return [longer_run(config, run) for run in growing]
+def _longer(config: Mapping[str, Any], plan: CoatingPlan, run: PlannedRun, end: _End) -> PlannedRun | None:
+    """Plan the longer run of one that grows, if the plan follows growth."""
+    grows = plan.follow and needs_confirmation(*end, config["analysis"]["divergence"])
+    return longer_run(config, run) if grows else None
+
+
+def _not_begun(config: Mapping[str, Any], plan: CoatingPlan, ends: Mapping[str, _End]) -> list[PlannedRun]:
+    """Plan the longer runs that are not yet among the `ends`, by file, of a plan."""
+    longer = (_longer(config, plan, run, ends[run.file]) for run in plan.runs)
+    return [run for run in longer if run is not None and run.file not in ends]
+
+
+def _entry(folder: Path, run: PlannedRun, blade_digest: str) -> Entry:
+    return Entry(folder / run.file, run.key(blade_digest), MAPPED)
 
 
 def _complete(
@@ -172,24 +186,29 @@ def _complete(
     report: Callable[[object], None],
     threads: int,
     runs: Sequence[PlannedRun],
+    longer: Callable[[PlannedRun, _End], PlannedRun | None] = lambda run, end: None,
 ) -> dict[str, _RunFile]:
-    """Compute what is missing or stale of `runs`, which are of equal length; return all by file."""
-    entries = {run.file: Entry(folder / run.file, run.key(blade_digest), MAPPED) for run in runs}
-    missing = [run for run in runs if not entries[run.file].fetch()]
-    origin, run_files = provenance(config), {}
+    """Compute what is missing or stale of `runs`, and their `longer` ones; return all by file."""
+    entries = {run.file: _entry(folder, run, blade_digest) for run in runs}
+    missing = {run.file: run for run in runs if not entries[run.file].fetch()}
+    origin, run_files, total = provenance(config), {}, len(missing)
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
-    cost_left = sum(1 / run.spec.f_omega for run in missing)
+    cost_left = sum(1 / run.spec.f_omega for run in missing.values())
     cost_done, start = 0.0, time.monotonic()
-    computed = _each_computed(config, case, blade, missing, blade_digest, report, threads)
+    computed = _each_computed(
+        config, case, blade, blade_digest, report, threads, list(missing.values()), longer
+    )
     for number, (run, stored, seconds) in enumerate(computed, 1):
-        entry = entries[run.file]
+        entry = _entry(folder, run, blade_digest)
         entry.make_room()
         run_files[run.file] = _run_file(entry, stored, write_run(entry.path, stored, origin))
-        cost_done += 1 / run.spec.f_omega
-        cost_left -= 1 / run.spec.f_omega
+        if run.file in missing:
+            cost_done += 1 / run.spec.f_omega
+            cost_left -= 1 / run.spec.f_omega
+        else:
+            total += 1
         seconds_left = (time.monotonic() - start) * max(cost_left, 0.0) / cost_done
-        status = stored.attributes["status"]
-        report(RunDone(number, len(missing), run.file, status, seconds, seconds_left))
+        report(RunDone(number, total, run.file, stored.attributes["status"], seconds, seconds_left))
     for file in entries.keys() - run_files.keys():
         path = entries[file].path
         run = read_run(path, {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"})
@@ -201,22 +220,33 @@ def _each_computed(
     config: Mapping[str, Any],
     case: CoatingCase,
     blade: ReducedBlade,
-    runs: Sequence[PlannedRun],
     blade_digest: str,
     report: Callable[[object], None],
     threads: int,
+    runs: Sequence[PlannedRun],
+    longer: Callable[[PlannedRun, _End], PlannedRun | None] = lambda run, end: None,
 ) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
-    """Yield each run as it is done, and the seconds that it took; rows last."""
+    """Yield each run as it is done, and the seconds that it took; rows last.
+
+    The `longer` run of a single blade comes next, if the solver goes on with runs.
+    """
     analysis = config["analysis"]
 
     def compute_row(run: PlannedRun) -> tuple[StoredRun, float]:
         start = time.monotonic()
         return compute(case, run, blade, run.key(blade_digest), analysis), time.monotonic() - start
 
+    def revolutions(number: int, result: RunResult) -> int:
+        run = longer(single[number], _End(result.revolution_amplitude, result.status))
+        return run.spec.revolutions if run else 0
+
     single = [run for run in runs if not run.row]
-    solved = solver_of(config).simulate_many(blade, [run.spec for run in single], threads, report)
+    specs = [run.spec for run in single]
+    solved = solver_of(config).simulate_many(blade, specs, threads, report, longer=revolutions)
     for number, result, seconds in solved:
         run = single[number]
+        if result.revolution_amplitude.size > run.spec.revolutions:
+            run = longer_run(config, run)
         key = run.key(blade_digest)
         yield run, stored_run(case, run.spec, result, key, analysis, run.keep_history), seconds
     for run, (stored, seconds) in each_done(compute_row, [run for run in runs if run.row], threads):

@@ -8,8 +8,10 @@ of the single blade, have another (``ROWS``).
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from functools import partial
 from typing import Any, NamedTuple, TypeVar
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bladerub import plugins
@@ -49,20 +51,26 @@ class Solver:
         threads: int = 1,
         report: Callable[[str], None] = lambda line: None,
         progress: Callable[[int], None] | None = None,
+        longer: Callable[[int, RunResult], int] = lambda number, result: 0,
     ) -> Iterator[Solved]:
         """Yield each run as it is done; raises as `bladerub.contact.run.simulate`.
 
         `threads` runs may be computed at once, `report` is called with lines for a log, and `progress` with
-        the number of revolutions done of a run, where they are counted.
+        the number of revolutions done of a run, where they are counted. A run may be followed by itself for
+        as many revolutions as ``longer(number, result)`` says: a solver that goes on with runs yields it
+        again, others begin none.
         """
-        from bladerub.contact.run import simulate  # loads the compiler: who plans runs alone does without
+        from bladerub.contact.run import simulate_longer  # loads the compiler, which not all need
 
-        def timed(number: int) -> tuple[RunResult, float]:
+        def timed(number: int) -> tuple[list[RunResult], float]:
             start = time.monotonic()
-            return simulate(blade, specs[number], progress), time.monotonic() - start
+            results = simulate_longer(blade, specs[number], partial(longer, number), progress)
+            return results, time.monotonic() - start
 
-        for number, (result, seconds) in each_done(timed, range(len(specs)), threads):
-            yield Solved(number, result, seconds)
+        for number, (results, seconds) in each_done(timed, range(len(specs)), threads):
+            revolutions = [result.revolution_peak.size for result in results]
+            for result, more in zip(results, np.diff(revolutions, prepend=0), strict=True):
+                yield Solved(number, result, seconds * more / revolutions[-1])
 
     def determinants(self) -> dict[str, str]:
         """Name and digest of what determines a run besides `bladerub.contact.sources`, if anything."""

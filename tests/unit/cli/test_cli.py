@@ -138,7 +138,7 @@ def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, comman
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("bladerub.contact.run.simulate", interrupted)
+    monkeypatch.setattr("bladerub.contact.run.simulate_longer", interrupted)
     assert command(*RUN, *small) == (130, "", "bladerub run: interrupted\n")
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from bladerub.contact import casing, reference
 from bladerub.contact.modes import modes_at
-from bladerub.contact.run import simulate
+from bladerub.contact.run import simulate, simulate_longer
 from bladerub.contact.setup import SEARCH_RANGE, set_up, strip_width
 
 
@@ -71,6 +71,24 @@ def test_loop_agrees_with_numpy_reference_where_the_profile_turns(
     fixed = simulate(turning_blade, change(spec, turns=False))
     assert np.abs(result.wear - fixed.wear).max() > 0.02 * wear.max()
     check(result, history, wear, spec)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"E": 3.0, "K": 0.05, "theta": 0.1},
+        {"E": 3.0, "K": 0.05, "theta": 0.1, "turns": True, "scheme": "central_differences"},
+        {"E": 1.1, "K": 0.5, "theta": 0.1, "law": "coulomb"},
+        {"E": np.inf, "K": np.inf, "theta": 0.1, "law": "coulomb"},
+    ],
+)
+def test_a_run_that_goes_on_is_the_longer_one_from_rest(turning_blade, spec, change, values):
+    spec = change(spec, **values, revolutions=1, max_time_step=1e-5)
+    run, longer = simulate_longer(turning_blade, spec, lambda result: 2 * result.revolution_peak.size + 1)
+    for result, revolutions in ((run, 1), (longer, 3)):
+        expected = dataclasses.asdict(simulate(turning_blade, change(spec, revolutions=revolutions)))
+        np.testing.assert_equal(dataclasses.asdict(result), expected)
+    assert len(simulate_longer(turning_blade, spec, lambda result: 0)) == 1
 
 
 def test_rigid_casing_is_met_without_a_profile(turning_blade, spec, change):

@@ -8,7 +8,6 @@ import h5py
 import numpy as np
 import pytest
 
-from bladerub.contact import run as contact_run
 from bladerub.contact.result import Energy
 from bladerub.io import hdf5
 from bladerub.study.inventory import COUNTS, take
@@ -86,17 +85,15 @@ def test_damage_anywhere_in_a_file_ends_no_inventory_and_is_found(done, inventor
 
 
 def test_runs_that_did_not_converge_or_are_out_of_balance_are_counted(
-    simulated, compute, inventory, monkeypatch, tmp_path
+    solve_by, make_result, compute, inventory, tmp_path
 ):
-    simulate = contact_run.simulate
-
-    def doubtful(blade, spec, progress=None):
+    def doubtful(spec):
         steps, wear = {0.1: (3, 0.01), 0.2: (1, np.nan)}.get(spec.f_omega, (0, 0.0))
         entries = dict.fromkeys(Energy.__annotations__, 0.0) | {"wear": wear, "exchanged": 1.0}
-        result = replace(simulate(blade, spec), energy=Energy(**entries))
+        result = replace(make_result(spec.revolutions), energy=Energy(**entries))
         return replace(result, n_unconverged_steps=steps, n_fallback_steps=9)
 
-    monkeypatch.setattr("bladerub.contact.run.simulate", doubtful)
+    solve_by(doubtful)
     rows = compute()
     for _ in range(2):  # without and with the manifest
         found = inventory()

@@ -81,8 +81,8 @@ def test_runs_that_grow_are_repeated_for_longer_once(compute, simulated, growing
     rows = compute(report=reports.append)
     assert repeated == [0.1, 0.2]  # 0.3 is unbounded
     assert [bool(row.confirmation_key) for row in rows] == [True, False, True, False]
-    assert [(done.number, done.total) for done in reports[4:]] == [(1, 2), (2, 2)]
-    assert [done.seconds_left > 1e-9 for done in reports] == [True, True, True, False, True, False]
+    assert [(done.number, done.total) for done in reports] == [(1, 4), (2, 5), (3, 5), (4, 5), (5, 6), (6, 6)]
+    assert [done.seconds_left > 1e-9 for done in reports] == [True, True, True, True, True, False]
     longer = read_run(tmp_path / "confirmation" / "0.2000.h5")
     assert longer.attributes["run_key"] == rows[2].confirmation_key != rows[2].run_key
     assert longer.data["revolution_amplitude"].shape == (60,)
@@ -139,12 +139,9 @@ def test_real_runs_go_from_the_solver_to_the_table(quick, case, blade, tmp_path)
 
 
 def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
-    study, blade, make_result, monkeypatch, tmp_path
+    study, blade, make_result, solve_by, tmp_path
 ):
-    monkeypatch.setattr(
-        "bladerub.contact.run.simulate",
-        lambda _, spec, __: make_result(spec.revolutions, order=4.0, depth=0.0),
-    )
+    solve_by(lambda spec: make_result(spec.revolutions, order=4.0, depth=0.0))
     case = CoatingCase.rigid("2nd", 0.15)
     rows = compute_missing(study, coating_plan(study, case), blade, tmp_path, "digest")
     maps.build_map(study, case, blade, tmp_path, rows, tmp_path / "map.h5")

@@ -90,9 +90,12 @@ def _cost(blade: ReducedBlade, config: Mapping[str, Any], folder: Path, run: Stu
     start = time.thread_time()  # other processes and threads do not count
     grows = _make(blade, config, run.case, planned, folder)
     run_end = time.thread_time()
-    if grows:
-        _make(blade, config, run.case, longer_run(config, planned), folder / "longer")
-    followed = time.thread_time() - run_end if grows else 0.0
+    followed = 0.0
+    if grows:  # a study goes on with the run
+        longer = longer_run(config, planned)
+        _make(blade, config, run.case, longer, folder / "longer")
+        share = 1 - spec.revolutions / longer.spec.revolutions
+        followed = share * (time.thread_time() - run_end)
     return _Cost(run_end - start, followed, _is_near_a_peak(blade, config, run))
 
 

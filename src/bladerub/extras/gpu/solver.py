@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.gpu import process
 from bladerub.io import sources
@@ -22,6 +23,7 @@ class Gpu(Solver):
         threads: int = 1,
         report: Callable[[str], None] = lambda line: None,
         progress: Callable[[int], None] | None = None,
+        longer: Callable[[int, RunResult], int] | None = None,
     ) -> Iterator[Solved]:
         """Yield each run as it is done; raises `bladerub.extras.gpu.device.NoGpuError` without a GPU."""
         from bladerub.extras.gpu import many, server  # load the compiler: who plans runs alone does without

@@ -20,7 +20,7 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.integration import Segment, integrate
+from bladerub.contact.integration import History, Segment, integrate
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.records import COATING
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
@@ -84,8 +84,8 @@ def simulate_sweep(blade: ReducedBlade, spec: SweepSpec) -> SweepResult:
     plan = speed_steps(spec, blade.f1_hz)
     sweep = _Sweep(blade, spec.run, plan)
     initial = sum(energy.blade_energy(sweep.stage.rule, sweep.stage.simulation.state))
-    revolutions = plan[-1].last // n_elements
-    history = integrate(sweep.segments(), revolutions, n_elements)
+    history = History(plan[-1].last // n_elements, n_elements)
+    integrate(sweep.segments(), history)
     f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
     return SweepResult(
         **history.outcome(blade, spec.run, sweep.stage.rule, sweep.stage.simulation, initial),

@@ -14,7 +14,7 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.integration import Segment, integrate
+from bladerub.contact.integration import History, Segment, integrate
 from bladerub.contact.kernel import loop
 from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
@@ -55,7 +55,8 @@ def simulate_sampled(
     sampled = _Sampled(simulation, ends, n, forces, revolutions)
     initial = sum(energy.blade_energy(rule, simulation.state))
     segments = (Segment(sampled, revolution, 0, n_elements) for revolution in range(revolutions))
-    history = integrate(segments, revolutions, n_elements, progress)
+    history = History(revolutions, n_elements)
+    integrate(segments, history, progress)
     # what the resolved modes displace, and how the others answer to the contact forces
     moving = np.sqrt(rule.share[:n])[:, None] * shapes[:, :n].T
     answer = modes.tip * ((1.0 - rule.share) / omega**2) @ shapes.T

@@ -41,17 +41,17 @@ def blade(blade):
 
 
 @pytest.fixture
-def made(study, coating, blade, make_result, monkeypatch, tmp_path):
+def made(study, coating, blade, make_result, solve_by, tmp_path):
     """Make the ensembles of the coating by a stand-in for the solver, whose runs are listed as specs."""
     specs = []
 
-    def simulate(_, spec, progress=None):
+    def simulate(spec):
         specs.append(spec)
         grows = spec.f_omega == 0.2 and spec.initial_displacement > 0 and spec.revolutions == 20
         height = 1e-3 + 1e3 * spec.initial_displacement
         return make_result(spec.revolutions, amplitude=height, growth=0.04 if grows else 0.0)
 
-    monkeypatch.setattr("bladerub.contact.run.simulate", simulate)
+    solve_by(simulate)
 
     def make(report=lambda line: None):
         return ensemble.make(study, coating, blade, "blade", tmp_path / "runs", tmp_path / "e.h5", report)
