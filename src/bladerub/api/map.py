@@ -255,8 +255,8 @@ def solve_all(
         compile_kernel(n_nodes=blade.reduced.n_interface, law=runs[0].spec.coating.element_law)
     runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade
     config, row = runs[0].config, row_of(runs[0].config)
-    planned = [planned_run(config, run.spec, f"{n}.h5", False, row) for n, run in enumerate(runs)]
-    plan = CoatingPlan(runs[0].case, tuple(planned), follow)
+    planned = [planned_run(config, run.spec, f"{n}.h5", False, row, follow) for n, run in enumerate(runs)]
+    plan = CoatingPlan(runs[0].case, tuple(planned))
     with bar(len(runs), "run", progress) as line:
         stored, longer = compute_all(
             config, plan, blade.reduced, blade.digest, threads=jobs, advance=line.update

@@ -16,13 +16,18 @@ LOBES = (*FIVE_LOBES, *((f_omega - NEAR, f_omega + NEAR) for f_omega in (TEN_LOB
 
 
 def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
-    """Choose such speeds (n,) of a coating, ascending, normalised.
+    """Choose such speeds (n,) of a coating, ascending, normalised: `judged`, and those of claims on lobes."""
+    return np.union1d(judged(config, coating), coating.f_omega[on_lobes(coating.case, coating.f_omega)])
+
+
+def judged(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
+    """Choose those of which divergence counts as well.
 
     They are its peaks, or where its orders meet C1 if it has none, with their neighbours in speed, and those
-    that are `named`.
+    with a history.
     """
     f_omega = coating.f_omega
-    mask = named(config, coating.case, f_omega)
+    mask = with_history(config, coating.case, f_omega)
     settings = peak_settings(config, coating.case.casing)
     for order in settings["orders"]:
         index = nearest_speed(coating, order, settings)
@@ -37,10 +42,12 @@ def nearest_speed(coating: Response, order: float, settings: Mapping[str, Any]) 
     return int(np.argmin(np.abs(distance)))
 
 
-def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
-    """Which (n,) of the speeds `f_omega` count wherever the peaks are: by history or the claims on lobes."""
-    mask = np.array([keeps_history(config, case, float(f)) for f in f_omega])
-    if case == WORN:
-        for low, high in LOBES:
-            mask |= between(f_omega, low, high)
-    return mask
+def with_history(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
+    """Which (n,) of the speeds `f_omega` have a history."""
+    return np.array([keeps_history(config, case, float(f)) for f in f_omega])
+
+
+def on_lobes(case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
+    """Which (n,) of the speeds `f_omega` claims on worn lobes are about."""
+    inside = np.array([between(f_omega, low, high) for low, high in LOBES])
+    return inside.any(axis=0) & (case == WORN)

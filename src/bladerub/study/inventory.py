@@ -118,7 +118,7 @@ def take(
         counts["unbounded"] += summary.status == "unbounded"
         counts["unconverged"] += summary.unconverged
         counts["unbalanced"] += summary.unbalanced
-        if plan.follow and summary.grows:
+        if run.follow and summary.grows:
             counts["longer_planned"] += 1
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"
     counts["bytes"] = sum(sizes.values())

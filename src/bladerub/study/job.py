@@ -73,8 +73,8 @@ def compute_missing(
 ) -> list[ManifestRow]:
     """Compute those runs of one coating whose file is missing or stale; return the rows of its manifest.
 
-    A run that grows is followed, if the `plan` follows growth, for as many revolutions as the config has for
-    its confirmation (see `bladerub.study.growth`). Each run is written as soon as it and its longer one are
+    A run that grows is followed, if its plan says so, for as many revolutions as the config has for its
+    confirmation (see `bladerub.study.growth`). Each run is written as soon as it and its longer one are
     done, so an interrupted job continues where it stopped. Runs that are no longer planned stay, stale ones
     are archived (`bladerub.study.cache`, whose `blade_digest` is that of the blade). One job at a time works
     on a folder: another, of another invocation, waits for its end and takes over what it has computed.
@@ -85,7 +85,7 @@ def compute_missing(
     complete = partial(_complete, config, plan.case, blade, folder, blade_digest, report, threads)
 
     def missing_longer(run: PlannedRun, end: _End) -> PlannedRun | None:
-        longer = _longer(config, plan, run, end)
+        longer = _longer(config, run, end)
         return None if longer is None or _entry(folder, longer, blade_digest).fetch() else longer
 
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
@@ -111,7 +111,7 @@ def compute_all(
     """
     each_computed = partial(_each_computed, config, plan.case, blade, blade_digest, report, threads)
     stored_runs, files = {}, {run.file for run in plan.runs}
-    for run, stored, _ in each_computed(plan.runs, partial(_longer, config, plan)):
+    for run, stored, _ in each_computed(plan.runs, partial(_longer, config)):
         stored_runs[run.file] = stored
         if run.file in files:
             advance()
@@ -161,15 +161,15 @@ def _row(run: PlannedRun, run_file: _RunFile, longer: _RunFile | None, growth_ke
     )
 
 
-def _longer(config: Mapping[str, Any], plan: CoatingPlan, run: PlannedRun, end: _End) -> PlannedRun | None:
-    """Plan the longer run of one that grows, if the plan follows growth."""
-    grows = plan.follow and needs_confirmation(*end, config["analysis"]["divergence"])
+def _longer(config: Mapping[str, Any], run: PlannedRun, end: _End) -> PlannedRun | None:
+    """Plan the longer run of one that grows and is to be followed."""
+    grows = run.follow and needs_confirmation(*end, config["analysis"]["divergence"])
     return longer_run(config, run) if grows else None
 
 
 def _not_begun(config: Mapping[str, Any], plan: CoatingPlan, ends: Mapping[str, _End]) -> list[PlannedRun]:
     """Plan the longer runs that are not yet among the `ends`, by file, of a plan."""
-    longer = (_longer(config, plan, run, ends[run.file]) for run in plan.runs)
+    longer = (_longer(config, run, ends[run.file]) for run in plan.runs)
     return [run for run in longer if run is not None and run.file not in ends]
 
 

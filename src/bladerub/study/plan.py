@@ -28,6 +28,7 @@ class PlannedRun:
     keep_history: bool  # whether the whole radial displacement of node 1 is stored
     determinants: str  # digest of all that determines the file but the blade; other runs have no part in it
     row: Any = None  # the blades (`bladerub.study.solver`), where there is more than the one
+    follow: bool = True  # whether it goes on for longer if it grows
 
     @property
     def n_blades(self) -> int:
@@ -45,11 +46,15 @@ class CoatingPlan:
 
     case: CoatingCase
     runs: tuple[PlannedRun, ...]
-    follow: bool = True  # whether runs that grow are repeated for longer
 
 
 def planned_run(
-    config: Mapping[str, Any], spec: RunSpec, file: str, keep_history: bool, row: Any = None
+    config: Mapping[str, Any],
+    spec: RunSpec,
+    file: str,
+    keep_history: bool,
+    row: Any = None,
+    follow: bool = True,
 ) -> PlannedRun:
     """Plan one run (see `PlannedRun`); `config` is the study."""
     determinants = {
@@ -65,7 +70,7 @@ def planned_run(
         determinants |= rows().determinants(row)
     else:  # what computes it decides the last bits, and with them a chaotic run
         determinants |= solver_of(config).determinants()
-    return PlannedRun(spec, file, keep_history, cache.digest(determinants), row)
+    return PlannedRun(spec, file, keep_history, cache.digest(determinants), row, follow)
 
 
 def storage_digest() -> str:

@@ -25,9 +25,11 @@ import pandas as pd
 import scipy
 
 from bladerub.extras.ensembles.ensemble import Ensemble
+from bladerub.extras.important_runs import judged
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, modulus_unit
+from bladerub.study.growth import Verdict
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
 from bladerub.study.variants import plain, with_variant
@@ -53,7 +55,10 @@ RUN_COLUMNS = [
     *(f"{name}_{end}" for name in ("growth_rate", "max_wear") for end in _ENDS),
     *("lobes_lowest", "lobes_highest", "max_wear_error"),
 ]
-"""Columns of ``run_bands.csv``: the growth is that of the study's own run, as in ``divergence.csv``."""
+"""Columns of ``run_bands.csv``: the first growth is that of the study's own run, as in ``divergence.csv``."""
+
+JUDGED_COLUMNS = ["divergent_draws", "saturating_draws", *(f"growth_rate_{end}" for end in _ENDS)]
+"""Those that runs have whose members are followed; NaN for others."""
 
 
 class Band(NamedTuple):
@@ -145,21 +150,25 @@ def _run_bands(
     ]
     max_wear = np.stack([coating.max_wear[places], *(member.max_wear for member in ensemble.members)])
     lobes = np.stack([coating.lobes[places], *(member.lobes for member in ensemble.members)])
+    followed = np.isin(coating.f_omega[places], judged(config, coating))
     for index, drawn in enumerate(zip(*verdicts, strict=True)):
-        growth = band([verdict.growth.per_revolution for verdict in drawn])
         yield {
             **vars(coating.case),
             "f_omega": coating.f_omega[places[index]],
             "growth_per_revolution": drawn[0].growth.per_revolution,
             "draws": len(drawn),
-            "divergent_draws": np.mean([verdict.divergent for verdict in drawn]),
-            "saturating_draws": np.mean([verdict.saturating for verdict in drawn]),
-            **{f"growth_rate_{end}": value for end, value in growth._asdict().items()},
+            **(_judgement(drawn) if followed[index] else dict.fromkeys(JUDGED_COLUMNS, math.nan)),
             **{f"max_wear_{end}": value for end, value in band(max_wear[:, index])._asdict().items()},
             "lobes_lowest": int(lobes[:, index].min()),
             "lobes_highest": int(lobes[:, index].max()),
             "max_wear_error": ERROR * abs(ensemble.refined.max_wear[index] - max_wear[0, index]),
         }
+
+
+def _judgement(drawn: Sequence[Verdict]) -> dict[str, float]:
+    growth = band([verdict.growth.per_revolution for verdict in drawn])
+    shares = np.mean([(verdict.divergent, verdict.saturating) for verdict in drawn], axis=0)
+    return dict(zip(JUDGED_COLUMNS, (*shares, *growth), strict=True))
 
 
 def of_findings(

@@ -11,7 +11,8 @@
 4. Each of them is repeated from its own start with a quarter of the tolerance, which is half the step
    (`bladerub.contact.steps`): what changes is three quarters of the error that the step of the run makes.
 5. Members are stored, found again and followed further when they grow as the runs of the study are
-   (`bladerub.study.job`), in the folder ``ensemble`` next to them.
+   (`bladerub.study.job`), in the folder ``ensemble`` next to them. Those that only claims on worn lobes rest
+   on are not followed: lobes are counted after the revolutions of the study.
 """
 
 from collections.abc import Callable, Mapping
@@ -24,7 +25,7 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.important_runs import chosen, named
+from bladerub.extras.important_runs import chosen, judged, on_lobes, with_history
 from bladerub.io import hdf5
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
@@ -36,7 +37,6 @@ from bladerub.study.job import RunDone, compute_missing
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_orders
-from bladerub.study.paper import WORN
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import row_of
 
@@ -73,9 +73,6 @@ OVER_SPEED = tuple(
 )
 """Datasets of a map that differ between members."""
 
-FOLLOWED = 2
-"""Cost of a member at the claims on lobes: about half of these grow, and are followed three times as long."""
-
 REFINED = 2
 """Steps of a refined run, over those of a run of the study."""
 
@@ -93,11 +90,12 @@ def starts(settings: Mapping[str, Any], case: CoatingCase, f_omega: float, membe
 def expected_cost(config: Mapping[str, Any], case: CoatingCase) -> int:
     """Count the members of a coating before its peaks are known, as if no two were next to each other.
 
-    Refined runs count as `REFINED`, those of the claims on lobes as `FOLLOWED`.
+    Refined runs count as `REFINED`.
     """
     if not config["ensemble"]["members"]:
         return 0
-    by_name = int(named(config, case, np.array(speeds(config))).sum()) * (FOLLOWED if case == WORN else 1)
+    f_omega = np.array(speeds(config))
+    by_name = int((with_history(config, case, f_omega) | on_lobes(case, f_omega)).sum())
     return (config["ensemble"]["members"] + REFINED) * (by_name + 3 * len(peak_orders(config, case.casing)))
 
 
@@ -111,10 +109,11 @@ def refined(spec: RunSpec) -> RunSpec:
     )
 
 
-def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> list[CoatingPlan]:
-    """Plan the members of one coating at the speeds `f_omega`, then the refined runs: the runs of each."""
-    settings, row, runs = config["ensemble"], row_of(config), []
-    for f in map(float, f_omega):
+def plan(config: Mapping[str, Any], coating: CoatingMap) -> list[CoatingPlan]:
+    """Plan the members of one coating, of the map `coating`, then the refined runs: the runs of each."""
+    settings, row, case, runs = config["ensemble"], row_of(config), coating.case, []
+    followed = set(judged(config, coating).tolist())
+    for f in chosen(config, coating).tolist():
         spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings["members"])
         members = [replace(spec, initial_displacement=start) for start in drawn.tolist()]
         files = [f"{speed_name(f)}_{number}.h5" for number in range(1, len(members) + 1)]
@@ -122,7 +121,7 @@ def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> l
         files.append(f"{speed_name(f)}_refined.h5")
         runs.append(
             [
-                planned_run(config, *spec_and_file, False, row)
+                planned_run(config, *spec_and_file, False, row, follow=f in followed)
                 for spec_and_file in zip(members, files, strict=True)
             ]
         )
@@ -144,13 +143,12 @@ def make(
     Returns the rows of their manifest. `coating` is its map, `runs_folder` that of its runs; other parameters
     are those of `bladerub.study.job.compute_missing`.
     """
-    folder, f_omega = Path(runs_folder) / FOLDER, chosen(config, coating)
-    planned = plan(config, coating.case, f_omega)
+    folder, planned = Path(runs_folder) / FOLDER, plan(config, coating)
     together = CoatingPlan(coating.case, tuple(run for member in planned for run in member.runs))
     rows = compute_missing(config, together, blade, folder, blade_digest, report, threads)
     write_manifest(folder / "manifest.tsv", rows)
     remaining_rows = iter(rows)
-    C1 = coating.C1[np.isin(coating.f_omega, f_omega)]
+    C1 = coating.C1[np.isin(coating.f_omega, chosen(config, coating))]
     *members, refined_runs = [
         maps.collect_listed(config, coating.case, C1, folder, [next(remaining_rows) for _ in member.runs])
         for member in planned

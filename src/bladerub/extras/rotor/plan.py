@@ -79,10 +79,10 @@ class Plan:
         combination = self.combinations[name]
         spec = run_spec(config, combination.case, combination.f_omega)
         runs = [
-            planned_run(config, spec, f"{draw:04d}.h5", keep_history=False, row=self.row(combination, draw))
+            planned_run(config, spec, f"{draw:04d}.h5", False, self.row(combination, draw), follow=False)
             for draw in range(self.draws[name])
         ]
-        return CoatingPlan(combination.case, tuple(runs), follow=False)
+        return CoatingPlan(combination.case, tuple(runs))
 
 
 PLAN = Path("config/rotor.yaml")

@@ -11,7 +11,7 @@ from bladerub.extras.ensembles.bands import band
 from bladerub.extras.ensembles.ensemble import Ensemble, expected_cost
 from bladerub.extras.ensembles.figure import peak_bands
 from bladerub.extras.further_columns import with_further
-from bladerub.extras.important_runs import chosen, named, nearest_speed
+from bladerub.extras.important_runs import chosen, judged, nearest_speed, on_lobes
 from bladerub.io import tables
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.grid import CoatingCase, run_spec, speeds
@@ -137,11 +137,22 @@ def test_each_peak_has_three_speeds_each_history_its_own_and_claims_on_lobes_the
     assert expected_cost(config, CASE) == (2 + 2) * (2 + 3 * 2)
     config["ensemble"]["members"] = 0
     assert expected_cost(config, CASE) == 0
-    listed = np.array(speeds(config))
-    at_lobes = named(config, WORN, listed)
+
+
+def test_runs_of_claims_on_lobes_are_repeated_and_not_followed(study, make_map):
+    f_omega = np.arange(0.02, 0.4, 0.002)
+    at_lobes = on_lobes(WORN, f_omega)
     assert at_lobes.sum() > 100
     assert at_lobes[0]
-    assert not at_lobes[(listed > 0.15) & (listed < 0.2)].any()
+    assert not at_lobes[(f_omega > 0.15) & (f_omega < 0.2)].any()
+    assert not on_lobes(CASE, f_omega).any()
+    worn = make_map(WORN, {5: (0.25, 5e-4), 4: (0.3, 2e-4)}, [0.05, 0.07, 0.2, 0.25, 0.3, 0.35])
+    np.testing.assert_array_equal(judged(study, worn), [0.2, 0.25, 0.3, 0.35])
+    plans = ensemble.plan(study, worn)
+    assert len(plans) == study["ensemble"]["members"] + 1
+    for member in plans:
+        assert [run.spec.f_omega for run in member.runs] == list(worn.f_omega)
+        assert [run.follow for run in member.runs] == [False, False, True, True, True, True]
 
 
 OTHER = CoatingCase("2nd", 2.0, 0.5, 0.0)
@@ -203,6 +214,13 @@ def test_peaks_and_runs_have_the_band_of_all_draws(config, maps, ensembles):
     assert found.growth_rate_high[0.2] > 0.05 > 0.01 > found.growth_rate_median[0.2]
     median = np.median([5e-4, 4.5e-4, 6.5e-4, 1.1e-4])
     assert found.max_wear_median[0.2] == pytest.approx(0.5 * median, rel=0.1)
+
+
+def test_runs_that_are_not_followed_have_no_judgement(config, maps, ensembles, monkeypatch):
+    monkeypatch.setattr(bands, "judged", lambda config, coating: [0.15, 0.2])
+    runs = bands.of_runs(config, maps, ensembles).set_index("f_omega")
+    assert runs[bands.JUDGED_COLUMNS].isna().all(axis="columns").tolist() == [False, False, True]
+    assert runs.max_wear_median.notna().all()
 
 
 def test_bands_stand_beside_the_numbers_that_they_are_of(config, maps, ensembles, tmp_path):
