@@ -146,13 +146,14 @@ def test_runs_of_claims_on_lobes_are_repeated_and_not_followed(study, make_map):
     assert at_lobes[0]
     assert not at_lobes[(f_omega > 0.15) & (f_omega < 0.2)].any()
     assert not on_lobes(CASE, f_omega).any()
-    worn = make_map(WORN, {5: (0.25, 5e-4), 4: (0.3, 2e-4)}, [0.05, 0.07, 0.2, 0.25, 0.3, 0.35])
-    np.testing.assert_array_equal(judged(study, worn), [0.2, 0.25, 0.3, 0.35])
+    near_peaks = [0.15, 0.17, 0.2, 0.25, 0.3, 0.35]
+    worn = make_map(WORN, {4: (0.3, 2e-4), 6: (0.17, 2e-4)}, [0.05, 0.07, *near_peaks])
+    np.testing.assert_array_equal(judged(study, worn), near_peaks)
     plans = ensemble.plan(study, worn)
     assert len(plans) == study["ensemble"]["members"] + 1
     for member in plans:
         assert [run.spec.f_omega for run in member.runs] == list(worn.f_omega)
-        assert [run.follow for run in member.runs] == [False, False, True, True, True, True]
+        assert [run.follow for run in member.runs] == [False] * 2 + [True] * 6
 
 
 OTHER = CoatingCase("2nd", 2.0, 0.5, 0.0)
