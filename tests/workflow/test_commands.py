@@ -115,10 +115,8 @@ def test_locked_runs_are_not_computed_again_for_another_speed(copied_study, tiny
         for name in written:
             file = stack.enter_context(open(copied_study.results / "runs" / name, "rb"))
             fcntl.flock(file, fcntl.LOCK_EX)
-        failed = copied_study.snakemake(target, "--cores", "1", config=tiny)
-    assert failed.returncode != 0
-    assert "HDF5_USE_FILE_LOCKING=FALSE" in failed.stderr
-    assert "Traceback" not in failed.stderr
+        said = copied_study.failure(target, "--cores", "1", config=tiny)
+    assert "HDF5_USE_FILE_LOCKING=FALSE" in said
     copied_study.build(tiny, target)
     now = copied_study.runs()
     assert {name: now[name] for name in written} == written

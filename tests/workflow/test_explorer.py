@@ -150,8 +150,7 @@ def test_a_link_restores_the_view(explorer):
 @pytest.mark.parametrize("width", [1400, 420])
 def test_the_report_fits_a_screen_and_a_phone(study, driver, tmp_path, width):
     page = tmp_path / "report.html"
-    done = study.call("bladerub", "report", "-o", page)
-    assert done.returncode == 0, done.stderr
+    study.said("bladerub", "report", "-o", page)
     assert page.stat().st_size < 5e6
     size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)

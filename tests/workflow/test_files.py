@@ -7,9 +7,7 @@ import h5py
 import pandas as pd
 import pytest
 import xarray as xr
-import yaml
 
-from bladerub.cli import inputs, main
 from bladerub.io.tables import description_path
 
 COATING = "2nd_E2_K0.5_theta0.15"
@@ -95,15 +93,3 @@ def test_every_figure_is_there_twice(results):
         files = sorted((results / "figures").glob(f"fig*.{kind}"))
         assert [path.name[:5] for path in files] == [f"fig{number:02}" for number in range(1, 20)]
         assert all(path.read_bytes().startswith(first) for path in files)
-
-
-def test_status_counts_every_run_done(study, tiny, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(inputs, "study_folder", lambda: study.folder)
-    overlay = tmp_path / "tiny.yaml"
-    overlay.write_text(yaml.safe_dump(tiny))
-    assert main(["status", "--json", "--thorough", "--config", str(overlay)]) == 0
-    counts = json.loads(capsys.readouterr().out)
-    assert counts["planned"] == counts["done"] == 6 * 8
-    assert counts["longer_planned"] == counts["longer_done"]
-    runs = study.results / "runs"
-    assert counts["bytes"] == sum(file.stat().st_size for file in runs.glob("*/**/*") if file.is_file())

@@ -71,8 +71,6 @@ def test_the_runs_are_those_of_the_processor(copied_study, few, gpu):
 @pytest.mark.skipif(find_spec("cupy") is not None, reason="CuPy is installed")
 def test_without_a_gpu_nothing_is_begun(copied_study, few):
     before = copied_study.runs()
-    done = copied_study.snakemake(TARGETS[0], "--cores", "1", config=few)
-    assert done.returncode != 0
-    assert "solver.device = gpu: needs CuPy" in done.stderr
-    assert "Traceback" not in done.stderr
+    said = copied_study.failure(TARGETS[0], "--cores", "1", config=few)
+    assert "solver.device = gpu: needs CuPy" in said
     assert copied_study.runs() == before

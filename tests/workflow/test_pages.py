@@ -30,13 +30,8 @@ def blocks(page: str | Path) -> list[str]:
 
 def run(page: str | Path, workspace: Workspace) -> str:
     """Run all commands of a page in one shell; return what they print."""
-    return call(workspace, "/bin/bash", "-euo", "pipefail", "-c", "\n".join(blocks(page)))
-
-
-def call(workspace: Workspace, *command: str) -> str:
-    done = workspace.call(*command, MPLBACKEND="agg")
-    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
-    return done.stdout
+    shell = ("/bin/bash", "-euo", "pipefail", "-c")
+    return workspace.said(*shell, "\n".join(blocks(page)), MPLBACKEND="agg")
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +71,7 @@ def test_the_examples_of_the_readme(clone: Workspace):
 def run_python(page: str, clone: Workspace) -> str:
     """Run the one example in Python of a page; return what it prints."""
     (example,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(), re.M | re.S)
-    return call(clone, "python", "-W", "error", "-c", example)
+    return clone.said("python", "-W", "error", "-c", example, MPLBACKEND="agg")
 
 
 def test_the_first_study(clone: Workspace):
@@ -115,6 +110,5 @@ def test_the_guides_name_targets_that_exist(full_study: Workspace):
         first = next((at for at, word in enumerate(words) if word.startswith("-")), len(words))
         gathered.setdefault(tuple(words[first:]), set()).update(words[:first] or ["all"])
     for options, targets in gathered.items():
-        done = full_study.snakemake(*targets, *options, "--dry-run", "--quiet")
-        assert done.returncode == 0, (options, done.stderr)
-        assert all(target in done.stdout for target in targets - {"all"}), options
+        planned = full_study.dry_run(*targets, *options, "--quiet")
+        assert all(target in planned for target in targets - {"all"}), options

@@ -28,15 +28,10 @@ def test_a_run_is_the_same_wherever_it_is_asked_for(copied_study, threads, tmp_p
     environment = {"BLADERUB_CACHE": str(tmp_path / "cache")}
     environment |= dict.fromkeys(limits, threads) if threads else {}
 
-    def call(*command):
-        done = copied_study.call(*command, **environment)
-        assert done.returncode == 0, done.stderr
-        return done.stdout.strip()
-
     of_workflow = read_run(copied_study.results / RUN)
     by_command, by_interface = tmp_path / "command.h5", tmp_path / "interface.h5"
-    call("bladerub", *OPTIONS.split(), "--output", str(by_command))
-    blade = call("python", "-c", PROGRAM, str(by_interface))
+    copied_study.said("bladerub", *OPTIONS.split(), "--output", by_command, **environment)
+    blade = copied_study.said("python", "-c", PROGRAM, by_interface, **environment).strip()
     built = copied_study.results / "hidden" / "reduced_model.h5"
     assert blade_digest(blade) == blade_digest(built)
     for path in (by_command, by_interface):

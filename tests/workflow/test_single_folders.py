@@ -1,7 +1,6 @@
 """Each folder of extras and of studies can be deleted alone: all else works, or says what it needs."""
 
 import shutil
-import sys
 
 import pytest
 from workspace import ROOT
@@ -24,11 +23,9 @@ parser().format_help()
 @pytest.mark.parametrize("name", EXTRAS)
 def test_a_folder_of_extras_can_be_deleted(workspace, tiny, name):
     shutil.rmtree(workspace.sources / "bladerub" / "extras" / name)
-    done = workspace.call(sys.executable, "-c", PROGRAM)
-    assert done.returncode == 0, done.stderr
-    planned = workspace.snakemake("--dry-run", "--cores", "1", config=tiny)
-    assert planned.returncode == 0, planned.stderr
-    left_out = [line for line in planned.stderr.splitlines() if "without the study" in line]
+    workspace.said("python", "-c", PROGRAM)
+    planned = workspace.dry_run("--cores", "1", config=tiny)
+    left_out = [line for line in planned.splitlines() if "without the study" in line]
     assert all(f"bladerub.extras.{name}" in line for line in left_out)
 
 

@@ -49,9 +49,7 @@ def running_job(kind):
 def test_every_job_but_the_first_two_shares_its_place_in_the_queue(workspace, tiny, revolutions, minutes):
     tiny["solver"]["revolutions"] = revolutions
     tiny["analysis"]["divergence"]["confirmation_revolutions"] = 0
-    done = workspace.snakemake(*PROFILE, "--dry-run", config=tiny)
-    assert done.returncode == 0, done.stderr
-    text = done.stdout + done.stderr
+    text = workspace.dry_run(*PROFILE, config=tiny)
     assert sorted(re.findall(r"^rule (\w+):", text, re.MULTILINE)) == ["all", "blade", "compile_kernel"]
     assert sorted(re.findall(r"Group job (\w+)", text)) == ["drawing", "rubs"]
     asked = dict(re.findall(r"rule (\w+):.*?runtime=(\d+)", text, re.DOTALL))

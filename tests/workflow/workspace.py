@@ -111,15 +111,39 @@ class Workspace:
         place = {"cwd": self.folder, "env": self.environment | environment}
         return subprocess.run([BIN / program, *arguments], timeout=600, errors="replace", **streams, **place)
 
+    def said(self, program, *arguments, **environment) -> str:
+        """Run a program, which must succeed; return what it prints."""
+        done = self.call(program, *arguments, **environment)
+        assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+        return done.stdout
+
+    def begin(self, *arguments, **options) -> subprocess.Popen:
+        """Start Snakemake with the overlay that is there and leave it at work; it writes to output.txt."""
+        command = [BIN / "snakemake", *arguments, "--configfile", "overlay.yaml"]
+        with (self.folder / "output.txt").open("w") as output:
+            streams = {"stdin": subprocess.DEVNULL, "stdout": output, "stderr": output}
+            return subprocess.Popen(command, cwd=self.folder, env=self.environment, **streams, **options)
+
+    def dry_run(self, *arguments, config=None) -> str:
+        """Return what Snakemake says of its plan."""
+        done = self.snakemake(*arguments, "--dry-run", config=config)
+        assert done.returncode == 0, (arguments, done.stderr)
+        return done.stdout + done.stderr
+
+    def failure(self, *arguments, config=None) -> str:
+        """Return what Snakemake says, which must fail, and without a traceback."""
+        done = self.snakemake(*arguments, config=config)
+        assert done.returncode != 0
+        assert "Traceback" not in done.stderr
+        return done.stderr
+
     def plan(self, config: dict[str, Any], *targets: str) -> dict[str, int]:
         """Dry-run: how many jobs of each rule are planned. The folder keeps the config of its study."""
         overlay = self.folder / "overlay.yaml"
         of_study = overlay.read_text() if overlay.exists() else None
-        done = self.snakemake(*targets, "--dry-run", config=config)
+        text = self.dry_run(*targets, config=config)
         if of_study is not None:
             overlay.write_text(of_study)
-        assert done.returncode == 0, done.stderr
-        text = done.stdout + done.stderr
         if "Nothing to be done" in text:
             return {}
         table = text.split("Job stats:")[1].split("total")[0]
@@ -134,9 +158,7 @@ class Workspace:
         """What `bladerub status` says of the study that was last given to Snakemake."""
         own_sources = str(self.folder / "src")  # its results are those beside its sources
         command = ("bladerub", "status", "--json", "--config", "overlay.yaml", *options)
-        told = self.call(*command, PYTHONPATH=own_sources)
-        assert told.returncode == 0, told.stderr
-        return json.loads(told.stdout)
+        return json.loads(self.said(*command, PYTHONPATH=own_sources))
 
 
 @cache
