@@ -57,12 +57,12 @@ BORDERS = [
     (TWO_SPEEDS, "speeds.stop", 0.3, 0.299),
     ({}, "speeds.extra", [0.19, 0.197, 0.4], [0.19, 0.197, just_above(0.4)]),
     (MANY, "speeds.extra", [], [0.0015]),
-    (NO_HISTORY, "coatings", [THOUSAND], [THOUSAND | {"K": THOUSAND["E"]}]),
+    (MANY | {"speeds.step": 0.01}, "coatings[0].K", [1, 2, 3, 4, 5], THOUSAND["E"]),
     (TWO_HISTORIES, "analysis.histories[1]", RUN, RUN | {"E": 2.5}),
     (TWO_HISTORIES, "analysis.histories[1].f_omega", 0.197, 0.1971),
     (TWO_HISTORIES, "analysis.histories[1].casing", "2nd", "3nd"),
-    (DAMPED, "rotor", EVEN, EVEN | {"angle_error": [0.0] * 35 + [-0.17]}),
-    (DAMPED, "rotor", {"blades": 36}, {"blades": 200}),
+    (DAMPED | {"rotor": EVEN}, "rotor.angle_error[35]", 0.0, -0.17),
+    (DAMPED | {"rotor": {"blades": 36}}, "rotor.blades", 36, 200),
     (SLOW, "analysis.peaks.orders", [4], [3]),
     (SLOW, "casings.2nd.peak_orders", [4], [3]),
     ({}, "analysis.peaks.orders", [4, 60], [4, 61]),
@@ -77,6 +77,8 @@ BORDERS = [
     *(({}, "results", "own", name) for name in ("..", "/tmp", "", "$(touch x)", "src", "README.md/runs")),
     *(({}, "speeds.stop", 0.4, no_number) for no_number in ("fast", None, [0.4], True, math.inf)),
 ]
+SUMS = ("speeds", "blade.mesh:", "coatings[0]:", "rotor.blades = 36:")
+"""What is named where several keys together are too much."""
 
 
 @pytest.mark.parametrize(("others", "key", "inside", "outside"), BORDERS)
@@ -89,7 +91,7 @@ def test_parts_of_a_config_agree_up_to_the_border_and_not_beyond(
     assert problems(config) == []
     change(config, key, outside)
     (problem,) = problems(config)
-    assert problem.text.startswith((key, "speeds", "blade.mesh:"))
+    assert problem.text.startswith((key, *SUMS))
 
 
 def test_matrices_fix_the_number_of_fit_speeds(config, problems, tmp_path):
