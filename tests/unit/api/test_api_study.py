@@ -80,9 +80,3 @@ def test_speeds_ascend_and_are_the_single_runs_whatever_the_jobs(study, blade, s
         with pytest.raises(br.InputError) as caught:
             br.simulate_speeds(blade, coating, speeds, progress=False)
         assert caught.value.name == "speeds"
-
-
-def test_written_map_is_what_xarray_opens_and_read_map_reads(study, sweep, tmp_path):
-    path = tmp_path / "map.h5"
-    sweep.write(path, study.config)
-    xr.testing.assert_identical(br.read_map(path).to_xarray(), sweep.to_xarray())

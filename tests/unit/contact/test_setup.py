@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 import scipy.linalg
+from stand_in import made_blade
 
 from bladerub.contact import setup
 from bladerub.contact.setup import SEARCH_RANGE, minimum_gap
@@ -51,17 +52,10 @@ def test_friction_is_limited_by_what_all_nodes_together_take(blade, spec, change
 
 
 @pytest.fixture
-def uneven(blade):
+def uneven():
     """The blade with nodes unevenly along the chord, and at an uneven angle."""
     angle = 2 * UNEVEN + 0.01 * np.sin(200 * UNEVEN)
-    zero = 0 * angle
-    position = np.column_stack([UNEVEN, 0.65 * np.sin(angle), 0.65 * np.cos(angle)])
-    return dataclasses.replace(
-        blade,
-        node_position=position,
-        radial_direction=np.column_stack([zero, np.sin(angle), np.cos(angle)]),
-        tangential_direction=np.column_stack([zero, np.cos(angle), -np.sin(angle)]),
-    )
+    return made_blade(np.random.default_rng(7), 192.0, UNEVEN, angle, 0.65)
 
 
 def test_clearance_is_linear_along_the_chord_not_by_node(uneven, spec, change):

@@ -1,25 +1,18 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import boundary_faces, normals
-from bladerub.contact.illustration import LoadingCycle, PressedElements
-from bladerub.contact.spec import Coating
+from bladerub.contact.illustration import loading_cycle, pressed_elements
+from bladerub.contact.spec import Coating, TipProfile
 from bladerub.plots.blade_mesh import View
 from bladerub.plots.coating_cycle import coating_cycle
 from bladerub.plots.tip_profile import tip_profile
 
-SCENE = PressedElements(
-    coating=Coating(2.0, 0.5, 0.15, yield_stress=0.0, modulus_unit=1e8, thickness=5e-3, n_elements=2000),
-    width=2e-3,
-    element=np.arange(-3, 4),
-    shortening=np.array([80e-6, 80e-6, 90e-6, 100e-6, 90e-6, 0, 0]),
-    wear=np.array([80e-6, 80e-6, 80e-6, 80e-6, 70e-6, 0, 0]),
-    stress=np.zeros(7),
-    tip_offset=np.linspace(-1.5, 1.5, 21),
-    tip_depth=100e-6 - 20e-6 * np.linspace(-1, 1, 21) ** 2,
-)
-E, K = 2.0, 0.5
+COATING = Coating(2.0, 0.5, 0.15, yield_stress=0.0, modulus_unit=1e8, thickness=5e-3, n_elements=2000)
+SCENE = pressed_elements(COATING, TipProfile(half_width=1.0, edge_drop=20e-6), 0.65, depth=1e-4, reach=3)
 
 
 def test_elements_reach_from_the_surface_to_the_casing_at_their_angle_and_are_worn(draws):
@@ -30,34 +23,26 @@ def test_elements_reach_from_the_surface_to_the_casing_at_their_angle_and_are_wo
     lean = corners[:, 3] - corners[:, 0]
     np.testing.assert_allclose(lean[:, 0] / lean[:, 1], np.tan(0.15))
     at_surface = (corners[:, 0, 0] + corners[:, 1, 0]) / 2 - np.tan(0.15) * corners[:, 0, 1]
-    np.testing.assert_allclose(at_surface, 2.0 * SCENE.element, atol=1e-9)
+    np.testing.assert_allclose(at_surface, 1e3 * SCENE.width * SCENE.element, atol=1e-9)
     element, elastic, worn = (
         np.array([(bar.get_x() + bar.get_width() / 2, bar.get_y(), bar.get_height()) for bar in bars]).T
         for bars in heights.containers
     )
-    np.testing.assert_allclose(worn[[0, 2]], [2.0 * SCENE.element, 1e6 * SCENE.wear])  # mm, μm
+    np.testing.assert_allclose(worn[[0, 2]], [1e3 * SCENE.width * SCENE.element, 1e6 * SCENE.wear])  # mm, μm
     np.testing.assert_allclose(elastic[2], 1e6 * (SCENE.shortening - SCENE.wear), atol=1e-9)
     np.testing.assert_allclose(element[1], 1e6 * SCENE.shortening)
 
 
-def cycle(yield_stress: float) -> LoadingCycle:
-    """Load to 0.03 and unload, in closed form."""
-    strain = np.concatenate([np.linspace(0, 0.03, 31), np.linspace(0.029, 0, 30)])
-    highest = np.maximum.accumulate(strain)
-    plastic = np.maximum(E * highest - yield_stress, 0) / (E + K)
-    stress = np.maximum(E * (strain - plastic), 0)
-    coating = Coating(E, K, 0.0, yield_stress, modulus_unit=1e8, thickness=5e-3, n_elements=2000)
-    return LoadingCycle(coating, strain, stress, plastic)
-
-
 def test_slopes_and_the_remaining_strain_are_marked_where_they_are(draws):
-    axes = draws(coating_cycle({"(a) small": cycle(0.0), "(b) large": cycle(0.02)})).axes
+    coatings = [replace(COATING, yield_stress=yield_stress) for yield_stress in (0.0, 0.02)]
+    small, large = (loading_cycle(coating, (0.0, 0.03, 0.0), 30) for coating in coatings)
+    axes = draws(coating_cycle({"(a) small": small, "(b) large": large})).axes
     for panel, yield_stress in zip(axes, (0.0, 0.02), strict=True):
         triangles = [line.get_xydata() for line in panel.lines if line.get_label() == "_slope"]
         slopes = [(corner[1] - start[1]) / (corner[0] - start[0]) for start, _, corner in triangles]
         assert slopes == pytest.approx([2.0, 0.4])
         (mark,) = [line for line in panel.lines if line.get_marker() == "v"]
-        assert mark.get_xdata() == pytest.approx([(E * 0.03 - yield_stress) / (E + K)])
+        assert mark.get_xdata() == pytest.approx([(2.0 * 0.03 - yield_stress) / 2.5])
 
 
 def tower(n: int) -> tuple[np.ndarray, np.ndarray]:

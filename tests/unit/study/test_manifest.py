@@ -4,13 +4,7 @@ import xarray
 
 from bladerub.io.checksum import file_checksum
 from bladerub.study import store
-from bladerub.study.manifest import (
-    ListedFile,
-    ManifestRow,
-    listed_files,
-    read_manifest,
-    write_manifest,
-)
+from bladerub.study.manifest import ListedFile, ManifestRow, listed_files, read_manifest, write_manifest
 
 OLDER = "\t".join(ManifestRow._fields[:9])
 

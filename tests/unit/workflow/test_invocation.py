@@ -95,15 +95,18 @@ def test_a_study_without_its_extra_is_left_out(tmp_path):
     ]
 
 
+def called_with(files, values, all_values):
+    """What `settings` sees of a workflow that was called with these configs."""
+    command_line = SimpleNamespace(configfiles=files, config=values, overwrite_config=all_values)
+    return SimpleNamespace(config_settings=command_line, is_main_process=True)
+
+
 @pytest.mark.parametrize("by_file", [False, True])
 def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_path, monkeypatch, by_file):
     path, given = tmp_path / "my.yaml", {"solver": {"revolutions": 30}}
     path.write_text("solver: {revolutions: 30}\n")
     files, values = ([path], {}) if by_file else ([], {"dpi": 3})
-    command_line = SimpleNamespace(
-        configfiles=files, config=values, overwrite_config=given if files else values
-    )
-    workflow = SimpleNamespace(config_settings=command_line, is_main_process=True)
+    workflow = called_with(files, values, given if files else values)
     for folder in [ROOT] if by_file else [ROOT, tmp_path]:  # there is a study, or none
         monkeypatch.chdir(folder)
         study, notes, laid_over = settings.read(workflow, given)
@@ -114,7 +117,5 @@ def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_pat
 
 def test_a_mistake_in_a_module_statement_is_said_to_be_there(monkeypatch):
     monkeypatch.chdir(ROOT)
-    command_line = SimpleNamespace(configfiles=[], config={}, overwrite_config={})
-    workflow = SimpleNamespace(config_settings=command_line, is_main_process=True)
     with pytest.raises(BadInput, match=r"^config of the module: solver.revolutions = 0: "):
-        settings.read(workflow, {"solver": {"revolutions": 0}})
+        settings.read(called_with([], {}, {}), {"solver": {"revolutions": 0}})

@@ -7,6 +7,7 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 from snakemake_logger_plugin_bladerub import LONGEST, LogHandler
 
+JOB = {"event": LogEvent.JOB_ERROR, "rule_name": "coating", "output": ["a.tsv"], "log": ["logs/a.log"]}
 PLAN = logging.INFO, "table", {"event": LogEvent.RUN_INFO, "stats": {"coating": 2, "fig11_Y4": 1, "total": 3}}
 
 
@@ -52,10 +53,9 @@ def test_errors_and_warnings_are_shown_and_no_line_is_long(lines):
 
 
 def test_a_failed_job_is_named_with_its_log_and_said_once(lines):
-    job = {"event": LogEvent.JOB_ERROR, "rule_name": "coating", "output": ["a.tsv"], "log": ["logs/a.log"]}
     shown = lines(
         PLAN,
-        (logging.ERROR, "Error in rule coating", job),
+        (logging.ERROR, "Error in rule coating", JOB),
         (logging.ERROR, "Command 'python a.py' returned non-zero exit status 1.", {"event": LogEvent.ERROR}),
         (logging.ERROR, "Exiting because a job execution failed. Look above", {}),
     )
@@ -65,12 +65,11 @@ def test_a_failed_job_is_named_with_its_log_and_said_once(lines):
 
 
 def test_jobs_that_ctrl_c_ends_have_not_failed(lines):
-    job = {"event": LogEvent.JOB_ERROR, "rule_name": "coating", "output": ["a.tsv"], "log": ["logs/a.log"]}
     ended = "Command 'python a.py' died with <Signals.{}>."
     by_user = logging.ERROR, ended.format("SIGINT: 2"), {"event": LogEvent.ERROR}
     by_system = logging.ERROR, ended.format("SIGKILL: 9"), {"event": LogEvent.ERROR}
-    assert lines(by_user, (logging.ERROR, "Error in rule coating", job)) == []
-    assert len(lines(by_system, (logging.ERROR, "Error in rule coating", job))) == 2
+    assert lines(by_user, (logging.ERROR, "Error in rule coating", JOB)) == []
+    assert len(lines(by_system, (logging.ERROR, "Error in rule coating", JOB))) == 2
 
 
 @pytest.mark.parametrize(

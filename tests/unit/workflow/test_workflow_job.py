@@ -62,8 +62,7 @@ def test_the_log_of_a_job_is_open_before_its_imports():
 def job(tmp_path):
     paths = {name: str(tmp_path / f"a.{name}") for name in ("png", "pdf")}
     paths |= {name: str(tmp_path / f"{name}.csv") for name in ("table", "data")}
-    scripts = tmp_path / "scripts"
-    return SimpleNamespace(output=paths, config={"seed": 1}, params={"dpi": 70}, scriptdir=str(scripts))
+    return SimpleNamespace(output=paths, config={"seed": 1}, params={"dpi": 70}, scriptdir="scripts")
 
 
 def test_tables_and_figure_go_to_their_outputs(job):
@@ -72,16 +71,6 @@ def test_tables_and_figure_go_to_their_outputs(job):
     assert Path(job.output["pdf"]).read_bytes().startswith(b"%PDF")
     pd.testing.assert_frame_equal(tables.read(job.output["table"]), TABLE, check_exact=True)
     assert tables.read(job.output["data"])["f_omega"].tolist() == [0.123457]
-
-
-def test_a_study_describes_columns_of_its_own_in_its_folder(job, tmp_path):
-    table = TABLE.assign(own=1.0)
-    with pytest.raises(ValueError, match="not described: own"):
-        outputs.save(job, table=table)
-    columns = "column,datatype,unit,description\nown,number,m,of this study alone\n"
-    (tmp_path / "columns.csv").write_text(columns, encoding="utf-8")
-    outputs.save(job, table=table)
-    assert "of this study alone" in tables.description_path(job.output["table"]).read_text(encoding="utf-8")
 
 
 def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need():
