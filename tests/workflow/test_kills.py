@@ -7,7 +7,6 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -25,15 +24,6 @@ LAST = 600
 """Longest that a study may take, s."""
 ROWS = {"f_omega": [0.19, 0.28], "blades": [4], "coupling": [0, 0.01], "draws": 30}
 ROTOR = {"seed": 1, "groups": {"some": GROUP | ROWS}}
-
-
-def start(workspace, target):
-    """Give the command, in a session of its own."""
-    command = [Path(sys.executable).with_name("snakemake"), "-j2", target, "--configfile", "overlay.yaml"]
-    with (workspace.folder / "output.txt").open("w") as output:
-        streams = {"stdin": subprocess.DEVNULL, "stdout": output, "stderr": subprocess.STDOUT}
-        place = {"cwd": workspace.folder, "env": workspace.environment}
-        return subprocess.Popen(command, start_new_session=True, **place, **streams)
 
 
 def jobs_of(process):
@@ -85,7 +75,7 @@ def torment(workspace, target, ways, seconds, seed):
     """
     draw, left, spent, known = random.Random(seed), list(ways), 0.0, {}
     while left:
-        process, began = start(workspace, target), time.monotonic()
+        process, began = workspace.begin("-j2", target, start_new_session=True), time.monotonic()
         try:
             process.wait(draw.uniform(0.0, max(seconds - spent, seconds / 4)))
         except subprocess.TimeoutExpired:
@@ -112,7 +102,7 @@ def torment(workspace, target, ways, seconds, seed):
         again = [name for name, written in known.items() if now.get(name) != written]
         assert again == [], "whole before, written again after a kill"
         known = now
-    assert start(workspace, target).wait(LAST) == 0, (workspace.folder / "output.txt").read_text()
+    assert workspace.begin("-j2", target).wait(LAST) == 0, (workspace.folder / "output.txt").read_text()
     now = workspace.runs()
     assert {name: now[name] for name in known} == known
 
@@ -132,6 +122,6 @@ def test_kills_of_jobs_with_rows_of_blades_cost_nothing_but_what_they_interrupt(
         (workspace.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
         pair.append(workspace)
     undisturbed, killed = pair
-    assert start(undisturbed, "rotor").wait(LAST) == 0
+    assert undisturbed.begin("-j2", "rotor").wait(LAST) == 0
     torment(killed, "rotor", WAYS, seconds=10.0, seed=5)
     assert unlike(killed, undisturbed) == []

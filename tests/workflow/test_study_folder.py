@@ -1,4 +1,4 @@
-"""A study of one's own is one folder: rules, script, caption and columns."""
+"""A study of one's own is one folder, with rules, script, caption and columns; those that are there."""
 
 import json
 import re
@@ -57,8 +57,7 @@ def test_the_crate_holds_the_workflow_and_what_it_made_and_reports_are_pages_of_
     assert {part["@id"] for part in entities["./"]["hasPart"]} <= entities.keys()
     assert {"Snakefile", "config/config.yaml", "results/tables/findings.csv"} <= set(names)
     assert "results/maps/2nd_E2_K0.5_theta0.15.h5" in names
-    done = copied_study.call("bladerub", "report")
-    assert done.returncode == 0, done.stderr
+    copied_study.said("bladerub", "report")
     page = (copied_study.results / "report.html").read_text(encoding="utf-8")
     worst = tables.read(copied_study.results / "tables" / "peaks.csv").nlargest(1, "amplitude").iloc[0]
     assert f"{1e3 * worst.amplitude:.3g} mm at {worst.f_peak_rpm:,.0f} rpm" in page
@@ -124,3 +123,22 @@ def test_sweeps_and_long_runs_are_made_when_asked_for(copied_study, beside):
     beside["sweeps"]["rates"] = [1.0, 3.0]
     assert copied_study.plan(beside, "sweeps") == {"sweep": 4, "sweeps": 1}
     assert copied_study.plan(beside) == {}  # the study has no part in it
+
+
+@pytest.mark.nightly
+def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_study, tiny):
+    charted = tiny | {"chart": {"E": [0.11, 2], "K": [0.5, 5], "theta": [0.0]}}
+    copied_study.build(charted, "chart", "results/tables/chart_agreement.csv")
+    chart = tables.read(copied_study.results / "tables" / "chart.csv")
+    assert chart.runs.tolist() == [8] * 4
+    # E = 0.11 and 2 with K = 0.5 are coatings of the study as well, at the same speeds
+    agreement = tables.read(copied_study.results / "tables" / "chart_agreement.csv")
+    assert len(agreement) == 2 * 3
+    assert (agreement.in_chart == agreement.greatest).all()
+
+    assert copied_study.plan(charted, "chart") == {}
+    cells, lost = copied_study.results / "chart" / "cells", "2nd_E2_K5_theta0.h5"
+    before = {path.name: path.stat().st_mtime_ns for path in cells.glob("*.h5")}
+    (cells / lost).unlink()
+    copied_study.build(charted, "results/chart/columns/2nd_E2_theta0.tsv")
+    assert {name for name in before if (cells / name).stat().st_mtime_ns != before[name]} == {lost}

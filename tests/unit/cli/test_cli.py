@@ -93,7 +93,7 @@ def test_an_ensemble_shows_its_bands(small, blade_file, figures, monkeypatch):
     assert bands["max_wear"]["low"] <= bands["max_wear"]["median"] <= bands["max_wear"]["high"]
 
 
-def test_a_row_shows_its_blades(small, blade_file, folder, figures):
+def test_a_row_shows_its_blades(small, blade_file, folder, figures, refusal):
     row = ["--blades", "3", "--length-scatter", "2e-5", "--frequency-scatter", "0.01", "--coupling", "0.01"]
     found = figures(*RUN, *small, *row, "--output", folder / "row.h5")
     blades = pd.DataFrame(found["blades"]).set_index("blade")
@@ -104,6 +104,8 @@ def test_a_row_shows_its_blades(small, blade_file, folder, figures):
     assert stored.attributes["disk_energy"] != 0
     np.testing.assert_array_equal(stored.data["blade_length"], blades.length)
     assert figures(*RUN, *small, *row, "--seed", "2")["blades"] != found["blades"]
+    line = refusal(*RUN, *small, "--blades", "200")
+    assert "row: blades 1 and 2 are 10 of 2000 coating elements apart" in line
 
 
 @pytest.mark.slow
@@ -118,20 +120,6 @@ def test_run_with_another_law_says_so(small, blade_file, folder, command):
     stored = read_run(path)
     assert stored.data["temperature_rise"].max() == pytest.approx(warmest, rel=1e-2)
     assert stored.attributes["element_law"].startswith("thermal (heat_capacity 2e+06, conductivity 5, ")
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ([*RUN, "--f", "9000 rpm"], "(9000 rpm): must be at most reduction.f_omega_max = 0.4"),
-        ([*RUN, "--blades", "200"], "row: blades 1 and 2 are 10 of 2000 coating elements apart"),
-        ([*RUN, "--coupling", "0.1"], "--coupling = 0.1: goes with --blades only"),
-        ([*RUN, "--law", "viscoplastic"], '--law = "viscoplastic": viscosity: missing'),
-        ([*RUN, "--law-parameter", "viscosity"], "--law-parameter = viscosity: must be NAME=VALUE"),
-    ],
-)
-def test_bad_input_is_answered_in_one_line(small, blade_file, arguments, words, refusal):
-    assert words in refusal(*arguments, *small[:2])
 
 
 def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, command):

@@ -39,14 +39,11 @@ def own(tmp_path):
     return written
 
 
-def test_numbers_that_are_off_are_named_and_the_exit_code_is_1(own, capsys):
-    assert main(["compare", own(), str(BENCHMARKS / "rotor37")]) == 0
-    capsys.readouterr()
-    assert main(["compare", own("f1_rest"), "rotor37", "--json"]) == 1
-    figures = json.loads(capsys.readouterr().out)
-    assert [row["number"] for row in figures["different"]] == ["f1_rest"]
-    assert main(["compare", "nowhere", "rotor37"]) == 2
-    assert "nowhere" in capsys.readouterr().err
+def test_numbers_that_are_off_are_named_and_the_exit_code_is_1(own, command):
+    assert command("compare", own(), BENCHMARKS / "rotor37")[0] == 0
+    code, out, _ = command("compare", own("f1_rest"), "rotor37", "--json")
+    assert code == 1
+    assert [row["number"] for row in json.loads(out)["different"]] == ["f1_rest"]
 
 
 @pytest.fixture
