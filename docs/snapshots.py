@@ -6,6 +6,7 @@ from pathlib import Path
 from bladerub import plugins
 from bladerub.io import tables
 
+_ROOT = Path(__file__).parents[1]
 COUNTED = {
     "divergence": ["casing", "E", "K", "theta", "law", "revolutions", "status", "divergent", "saturating"],
     "long_runs": ["law", "why", "revolutions", "verdict"],
@@ -54,6 +55,10 @@ KEPT = {
         *_COMBINATION,
         "rows",
         *(f"pattern_drift_{statistic}" for statistic in ("median", "p05", "p95")),
+    ),
+    "run_bands": (
+        *("casing", "E", "K", "theta", "f_omega", "draws", "divergent_draws"),
+        *("max_wear_median", "max_wear_low", "max_wear_high", "lobes_lowest", "lobes_highest"),
     ),
     "steps": ("E", "tolerance", "steps_per_revolution", "error", "sensitive"),
     "rigid_convergence": (
@@ -107,7 +112,7 @@ def take(source: Path, target: Path) -> None:
         tables.copy(source, target)
         return
     table, origin = tables.read(source), tables.read_origin(source)
-    columns_files = plugins.files("columns.csv")
+    columns_files = [*plugins.files("columns.csv"), *_ROOT.glob("studies/*/columns.csv")]
     for column, value in only.items():
         table = table[table[column] == value]
     if name in COUNTED:

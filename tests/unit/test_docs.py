@@ -12,6 +12,7 @@ from bladerub.cli import parser
 from bladerub.config.read import load
 from bladerub.io import tables
 from docs import snapshots
+from docs.numbers import data_folders
 from docs.research_notes import NOTES as SITE
 from docs.research_notes import follow
 
@@ -193,6 +194,17 @@ def test_runs_with_equal_outcome_are_counted_and_quoted_columns_kept_to_four_dig
     table = pd.DataFrame([("start", "C1a", 0.123456, "yes", "modes agree")], columns=columns)
     kept = {"set": "start", "id": "C1a", "measured": 0.1235, "holds": "yes"}
     assert taken(tmp_path, "calibration", table).to_dict("records") == [kept]
+
+
+def test_a_snapshot_taken_of_itself_is_the_same(tmp_path):
+    """Its columns are described, those of studies too."""
+    paths = [
+        path for folder in data_folders() for path in folder.glob("*.csv") if path.stem in snapshots.KEPT
+    ]
+    assert paths
+    for path in paths:
+        snapshots.take(path, tmp_path / path.name)
+        assert (tmp_path / path.name).read_bytes() == path.read_bytes()
 
 
 def test_an_equal_snapshot_keeps_its_description(tmp_path):
