@@ -74,11 +74,3 @@ def test_finer_bars_change_less_and_less(run):
     assert order > 1.7
     assert abs(peak[2] - peak[1]) < abs(peak[1] - peak[0])
     assert change[1] < 0.005
-
-
-def test_runs_know_nothing_of_each_other(run):
-    first = run(2.0, 0.5, 0.31, revolutions=2)
-    run(20.0, 10.0, 0.12, theta=0.15, revolutions=2)
-    again = run(2.0, 0.5, 0.31, revolutions=2)
-    np.testing.assert_array_equal(again.wear, first.wear)
-    np.testing.assert_array_equal(again.radial_displacement, first.radial_displacement)

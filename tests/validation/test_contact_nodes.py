@@ -5,21 +5,18 @@ import numpy as np
 import pytest
 
 from bladerub.blade.build import build
-from bladerub.config.read import load
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
-from bladerub.io.folders import ROOT
 
 STEPS = 400
 
 
 @pytest.fixture(scope="module", params=[5, 12, pytest.param(19, marks=pytest.mark.nightly)])
-def wide(request):
-    """The default blade with so many interface nodes, on a coarse mesh."""
-    config = load(ROOT / "config" / "config.yaml")
-    config["blade"]["mesh"] = {"chordwise": 20, "thickness": 2, "spanwise": 4}
-    config["reduction"] |= {"accuracy_speeds": 2, "accuracy_modes": 4, "interface_nodes": request.param}
-    return build(config).reduced
+def wide(request, coarse_config):
+    """The default blade with so many interface nodes, on another coarse mesh."""
+    blade = coarse_config["blade"] | {"mesh": {"chordwise": 20, "thickness": 2, "spanwise": 4}}
+    reduction = coarse_config["reduction"] | {"accuracy_modes": 4, "interface_nodes": request.param}
+    return build({"blade": blade, "reduction": reduction}).reduced
 
 
 @pytest.mark.parametrize("turns", [pytest.param(False, marks=pytest.mark.nightly), True])

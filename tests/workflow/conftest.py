@@ -17,7 +17,7 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 FOLDER = Path(__file__).parent
 AT_WORK_MEANWHILE = (
     *("test_laws.py", "test_contact_nodes.py", "test_contact_laws.py", "test_row.py", "test_emulation.py"),
-    *("test_rotor37_reference.py", "test_impact.py", "test_blade_default.py"),
+    *("test_blade_rotor37.py", "test_impact.py", "test_blade_default.py"),
 )
 """Files that take long and need no study."""
 

@@ -9,7 +9,6 @@ import scipy.linalg
 from bladerub.contact.casing import gap
 from bladerub.contact.modes import mode_shapes_at, tip_radii
 from bladerub.extras.rotor37 import direct, nlstep, numbers, reference
-from bladerub.extras.rotor37.reference import with_uncertainty
 
 F_OMEGA, DAMPING, MOVING = 0.2, 0.005, 6
 
@@ -58,7 +57,7 @@ def test_uncertainty_adds_changes_and_resolution_and_direct_contact_is_of_the_la
 
     depths = {"reference": 1.0, "step": 1.3, "modes": 0.6, "nodes": 1.0}
     tables = {name: measured(depth=depth, speed=2.0, lost=1.0) for name, depth in depths.items()}
-    table = with_uncertainty(tables | {"mesh": measured(depth=1.0, speed=2.4)}).set_index("number")
+    table = reference.with_uncertainty(tables | {"mesh": measured(depth=1.0, speed=2.4)}).set_index("number")
     assert table.uncertainty.to_dict() == pytest.approx({"depth": 0.5, "speed": 0.5})
     assert table.by_step["depth"] == pytest.approx(0.3)
     assert table.by_modes["depth"] == pytest.approx(-0.4)

@@ -10,15 +10,12 @@ from bladerub.contact.modes import Modes
 from bladerub.contact.setup import element_area, time_step
 from bladerub.contact.steps import with_steps
 from bladerub.extras.verification import impact, refinement, response, rigid_casing
-from bladerub.extras.verification.response import listed
-from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.grid import run_spec
 from bladerub.study.peaks import COLUMNS
 
-CASE = CoatingCase("2nd", 2.0, 0.5, 0.15)
 
-
-def test_tip_coating_and_step_stay_the_same(blade, config):
-    own = with_steps(run_spec(config, CASE, 0.3), 20)
+def test_tip_coating_and_step_stay_the_same(blade, config, case):
+    own = with_steps(run_spec(config, case, 0.3), 20)
     finer = refinement.with_finer_bars(blade, own, 4)
     assert finer.coating.n_elements == 4 * own.coating.n_elements
     assert finer.tip.half_width == pytest.approx(4 * own.tip.half_width)
@@ -53,7 +50,7 @@ def test_all_coatings_are_listed_and_each_peak_and_a_plain_speed_is_compared_wit
 ):
     of_all = [(0.0, 4, 0.31, "theta"), (0.0, 6, 0.19, "theta"), (math.nan, 6, 0.19, "coulomb")]
     rows = [("bumps", 1.0, 0.5, theta, order, f_peak, 1e-3, law) for theta, order, f_peak, law in of_all]
-    found = listed(pd.DataFrame(rows, columns=COLUMNS))
+    found = response.listed(pd.DataFrame(rows, columns=COLUMNS))
     assert [(case.casing, peak.f_peak) for case, peak in found] == [("bumps", 0.31), ("bumps", 0.19)]
 
     def simulate(_, spec, modes, how):
@@ -73,7 +70,7 @@ def test_all_coatings_are_listed_and_each_peak_and_a_plain_speed_is_compared_wit
     assert not table[(table.treatment == "moreau_jean_0") & (table.modes == 10)].complete.any()
 
 
-impact._march.enable_caching()  # as in tests/validation/test_rotor37_reference.py: one of both compiles it
+impact._march.enable_caching()  # as in test_blade_rotor37.py: one of both compiles it
 OMEGA, DISTANCE = 2 * np.pi * 50.0, 1e-3
 MODES = Modes(np.array([OMEGA]), np.repeat([[1.0], [0.0]], 8, axis=0), 8)
 
