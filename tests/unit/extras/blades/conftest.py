@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from blade_fixtures import blade_config, twisted_config  # noqa: F401 (fixtures)
 from blade_parts import REDUCTION, TWISTED
-from stand_in import blade  # noqa: F401 (fixture)
 
 from bladerub.blade.build import meshed_blade
 from bladerub.blade.discrete import by_finite_elements

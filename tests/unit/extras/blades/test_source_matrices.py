@@ -13,7 +13,7 @@ from blade_parts import REDUCTION, TITANIUM, TWISTED
 from scipy import sparse
 from scipy.io import mmread, mmwrite
 
-from bladerub.blade.build import build
+from bladerub.blade.build import build, reduce_given
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
@@ -21,6 +21,7 @@ from bladerub.blade.rotation import rotating_stiffness
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.matrices import check_definite, import_matrices
 from bladerub.extras.blades.origin import MatrixSource, read
+from bladerub.extras.blades.report import matrix_report
 from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
 
@@ -104,6 +105,33 @@ def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
     pairs = [(discrete.mass, given.blade.mass), (discrete.stiffness[0.4], given.blade.stiffness[0.4])]
     for ours, theirs in pairs:
         assert abs(theirs - ours).max() <= 1e-12 * abs(ours).max()
+
+
+def report(folder, config, units="SI"):
+    source, reduction = MatrixSource(folder, Frame(), units), config["reduction"] | {"modes_per_speed": 6}
+    given = import_matrices(source, 0.4, 8, 6)
+    return matrix_report(source, given, reduce_given(given.blade, config | {"reduction": reduction}))
+
+
+def test_figures_are_those_of_the_matrices_and_wrong_units_get_a_warning(folder, discrete, config):
+    figures, mesh = report(folder, config), discrete.layout.mesh
+    assert figures["nodes"] == len(mesh.mesh.points)
+    assert figures["unknowns"] == discrete.mass.shape[0]
+    assert figures["speeds"] == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
+    assert figures["f1_hz"] == pytest.approx(discrete.frequency[0])
+    assert figures["omega_max"] == pytest.approx(2 * np.pi * 0.4 * discrete.frequency[0])
+    assert figures["mass"] == pytest.approx(discrete.mass.sum() / 3)
+    assert not figures["mass_is_whole"]
+    assert figures["interface"] == mesh.mesh.points[mesh.interface].tolist()
+    assert figures["wave_speed"] == pytest.approx(6000, rel=0.05)
+    assert figures["stiffness_half_way"] == pytest.approx(0.25, abs=0.03)
+    assert 1e-6 < max(figures["error_eq2"]) < 0.01
+    assert figures["campbell_ratio"] > 1
+    assert figures["warnings"] == []
+    figures = report(folder, config, "mm-tonne")
+    assert figures["f1_hz"] == pytest.approx(discrete.frequency[0])
+    (wrong_units,) = figures["warnings"]
+    assert wrong_units.endswith("are the matrices in mm-tonne, and the nodes in m?")
 
 
 def test_another_speed_is_refused_and_nodes_without_clamped_ones_tell_no_length(folder, discrete, config):

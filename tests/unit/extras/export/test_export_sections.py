@@ -3,13 +3,12 @@ import dataclasses
 import numpy as np
 import pandas as pd
 import pytest
+from free_vibration import frequencies
 from scipy.io import loadmat
 
-from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
-from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
-from bladerub.blade.rotation import equilibrium
 from bladerub.config.read import load
 from bladerub.contact.modes import at_tip
 from bladerub.contact.setup import set_up
@@ -29,11 +28,6 @@ from bladerub.io.folders import ROOT
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
 
 
-def frequencies(mesh, material):
-    solid = Solid(mesh.mesh, Material.from_config(material), clamped=mesh.root)
-    return lowest_modes(equilibrium(solid, 0.0).stiffness, solid.mass, 8)[0]
-
-
 @pytest.mark.parametrize("coordinates", ["cartesian", "cylindrical"])
 def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(tmp_path, coordinates):
     blade = load(ROOT / "config" / "config.yaml")["blade"]
@@ -47,19 +41,17 @@ def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(tm
     table.to_csv(path, index=False)
     imported = import_blade(Source(path, Frame("inch"), angle_unit="deg"), COUNTS)
     ours = BladeMesh.from_shape(BladeShape.from_config(blade), COUNTS)
-    found, expected = (frequencies(mesh, blade["material"]) for mesh in (imported.blade.mesh, ours))
+    material = Material.from_config(blade["material"])
+    found, expected = (frequencies(of.mesh, of.root, material) for of in (imported.blade.mesh, ours))
     np.testing.assert_allclose(found, expected, rtol=3e-4)
     assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(blade["tip_cone"], abs=1e-4)
     interface = imported.blade.mesh.mesh.points[imported.blade.mesh.interface]
     np.testing.assert_allclose(interface, ours.mesh.points[ours.interface], atol=1e-4)
 
 
-MATERIAL = Material(110e9, 0.32, 4430.0)
-POINTS = np.arange(60.0).reshape(20, 3)
-
-
 def test_a_deck_of_a_rotating_blade_has_its_load_first_and_the_frequencies_of_calculix_are_read(tmp_path):
-    text = deck(POINTS, np.arange(20)[None], np.array([0]), MATERIAL, 30.0)
+    points, material = np.arange(60.0).reshape(20, 3), Material(110e9, 0.32, 4430.0)
+    text = deck(points, np.arange(20)[None], np.array([0]), material, 30.0)
     assert "BLADE, CENTRIF, 9.000000000000e+02, 0., 0., 0., 1., 0., 0." in text
     assert text.index("*STEP, NLGEOM") < text.index("*STEP, PERTURBATION") < text.index("*FREQUENCY")
     (tmp_path / "blade.dat").write_text(
@@ -87,27 +79,24 @@ def tip_at(blade, spec, instants):
     return at_tip(blade, record(blade, spec, Row.even(1), instants).coordinates[:, 0].T)
 
 
-@pytest.fixture(params=["exponential", "central_differences", "rigid"])
-def in_contact(request, spec, change):
-    """A run in each form of the law of contact; against the rigid casing the modes are shared out."""
-    if request.param == "central_differences":
-        return change(spec, scheme=request.param, max_time_step=1e-6)
-    if request.param == "rigid":
-        spec = change(spec, coating=Coating(np.inf, np.inf, 0.1, 1e-6, 150e6, 5e-3, 200))
-    return change(spec, steps_per_element=6, max_time_step=2e-5)  # too long for the highest mode
+LONG = {"steps_per_element": 6, "max_time_step": 2e-5}  # step, too long for the highest mode
+RIGID = {"coating": Coating(np.inf, np.inf, 0.1, 1e-6, 150e6, 5e-3, 200)}  # shares the modes out
+CENTRAL = {"scheme": "central_differences", "max_time_step": 1e-6}
 
 
-def test_the_tip_is_where_the_run_has_it(blade, in_contact):
-    tip = tip_at(blade, in_contact, [100, 200 * in_contact.revolutions])[:, -1]
-    rule, simulation = set_up(blade, in_contact)
-    for _ in range(in_contact.revolutions):
+@pytest.mark.parametrize("values", [LONG, LONG | RIGID, CENTRAL])
+def test_the_tip_is_where_the_run_has_it(blade, spec, change, values):
+    spec = change(spec, **values)
+    tip = tip_at(blade, spec, [100, 200 * spec.revolutions])[:, -1]
+    rule, simulation = set_up(blade, spec)
+    for _ in range(spec.revolutions):
         simulation.advance(np.empty(200))
-    assert (rule.share < 1).any() == (in_contact.scheme == "exponential")
+    assert (rule.share < 1).any() == (spec.scheme == "exponential")
     np.testing.assert_allclose(tip, simulation.state.u[0, :16], rtol=0, atol=1e-9 * np.abs(tip).max())
 
 
 def test_contact_forces_move_what_the_scheme_does_not_resolve(blade, spec, change):
-    spec = change(spec, E=20.0, revolutions=1, steps_per_element=6, max_time_step=2e-5)
+    spec = change(spec, E=20.0, revolutions=1, **LONG)
     tip = tip_at(blade, spec, range(1, 201))
     rule, simulation = set_up(blade, spec)
     moved = 0
