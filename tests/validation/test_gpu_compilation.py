@@ -7,13 +7,12 @@ import pytest
 from bladerub.contact.laws import NAMES
 from bladerub.contact.spec import PLASTIC, ElementLaw
 from bladerub.extras.gpu import batch, device
-from bladerub.extras.gpu.batch import Variant
 
 REGISTERS = 255  # of a thread
 nvrtc = pytest.importorskip("cupy_backends.cuda.libs.nvrtc", reason="no CuPy; pip install -e .[gpu]")
 
 
-def compile_for(architecture: str, variant: Variant) -> tuple[int, int]:
+def compile_for(architecture: str, variant: batch.Variant) -> tuple[int, int]:
     """Compile the loop; return registers of a thread and bytes that it spills."""
     try:
         program = nvrtc.createProgram(batch.source(variant), "loop.cu", (), ())
@@ -32,7 +31,7 @@ def compile_for(architecture: str, variant: Variant) -> tuple[int, int]:
 @pytest.mark.parametrize("vectors", [1, 2, 3, 4])
 @pytest.mark.parametrize("turns", [False, True])
 def test_the_loop_needs_no_memory_for_its_registers(vectors, turns):
-    variant = Variant(vectors, turns, 2, PLASTIC, 2000, 20)
+    variant = batch.Variant(vectors, turns, 2, PLASTIC, 2000, 20)
     used, spilled = compile_for("sm_90", variant)
     print(f"{32 * vectors} modes, profile turns {turns}: {used} registers, {spilled} bytes spilled")
     assert used <= REGISTERS
@@ -45,5 +44,5 @@ OTHERS = [(other, PLASTIC) for other in ("sm_80", "sm_89", "sm_100")]
 
 @pytest.mark.parametrize(("architecture", "law"), OTHERS + [("sm_90", ElementLaw(name)) for name in NAMES])
 def test_other_processors_and_laws(architecture, law):
-    used, _ = compile_for(architecture, Variant(3, False, 2, law, 2000, 20))
+    used, _ = compile_for(architecture, batch.Variant(3, False, 2, law, 2000, 20))
     assert used <= REGISTERS

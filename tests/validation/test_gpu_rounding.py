@@ -17,12 +17,8 @@ from bladerub.study.grid import coating_cases, run_spec, speeds
 
 pytestmark = [
     pytest.mark.nightly,  # long doubles are emulated
-    pytest.mark.skipif(
-        not emulation.is_possible(), reason=f"no {emulation.COMPILER}, which compiles the emulation"
-    ),
-    pytest.mark.skipif(
-        np.finfo(np.longdouble).nmant != 63, reason="this processor has no numbers with a mantissa of 64 bits"
-    ),
+    pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler"),
+    pytest.mark.skipif(np.finfo(np.longdouble).nmant != 63, reason="no numbers with a mantissa of 64 bits"),
 ]
 N_RUNS = 20
 

@@ -6,10 +6,7 @@ from bladerub.config import read as configuration
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import PLASTIC
-from bladerub.extras.benchmark import estimate as module
-from bladerub.extras.benchmark import gpu, measure, plain
-from bladerub.extras.benchmark.estimate import _Cost, estimate
-from bladerub.extras.benchmark.gpu import Measures, agreement
+from bladerub.extras.benchmark import estimate, gpu, measure, plain
 from bladerub.extras.benchmark.record import MACHINE, replace, rows
 from bladerub.extras.gpu import emulation
 from bladerub.extras.law_reading import described_law
@@ -46,14 +43,10 @@ SMALL = {
 def test_runs_and_members_cost_what_the_drawn_ones_do(blade, monkeypatch):
     """Runs at 0.16 grow and are near a peak, others take twice as long."""
     study = configuration.read("config/config.yaml", command_line=SMALL)
-
-    def cost(blade, config, folder, run):
-        near = run.f_omega == 0.16
-        return _Cost(1.0, 3.0, True) if near else _Cost(2.0, 0.0, False)
-
-    monkeypatch.setattr(module, "_cost", cost)
-    monkeypatch.setattr(module, "_start", lambda imported: 0.5)
-    found = estimate(blade, study, cores=4, drawn=1000)
+    costs = {True: estimate._Cost(1.0, 3.0, True), False: estimate._Cost(2.0, 0.0, False)}
+    monkeypatch.setattr(estimate, "_cost", lambda blade, config, folder, run: costs[run.f_omega == 0.16])
+    monkeypatch.setattr(estimate, "_start", lambda imported: 0.5)
+    found = estimate.estimate(blade, study, cores=4, drawn=1000)
     runs = len(study_runs(study))
     near, members = 2, (2 + 2) * (1 + 3 * 2 + 3 * 2)  # and refined: histories, each peak with its neighbours
     seconds = near * 4.0 + (runs - near) * 2.0 + members * 4.0 + 2 * 3 * 0.5
@@ -95,13 +88,13 @@ SMALL_FOR_GPU = SMALL | {
 
 
 def measured(status="completed", n_steps=10, peak=(1.0, 2.0)):
-    return Measures(status, n_steps, 5, np.array(peak), 1e-5)
+    return gpu.Measures(status, n_steps, 5, np.array(peak), 1e-5)
 
 
 def test_differences_are_counted_and_the_largest_revolution_of_a_run_taken():
     same = (measured(), measured())
     other = (measured(peak=(1.0, 2.02)), measured(status="unbounded", n_steps=9, peak=(1.01, 2.0)))
-    told = agreement([same] * 3 + [other])
+    told = gpu.agreement([same] * 3 + [other])
     assert (told["same_status"], told["same_steps"], told["same_contact_steps"]) == (3, 3, 4)
     assert (told["peak_error_median"], told["largest_residual"]) == (0, 1e-5)
     assert told["peak_error_largest"] == pytest.approx(0.01)

@@ -8,11 +8,9 @@ import pytest
 
 from bladerub.contact.setup import strip_width
 from bladerub.extras.chart import column, search
-from bladerub.extras.chart.column import determinants
 from bladerub.extras.chart.grid import check, nearest_speeds
 from bladerub.extras.chart.plan import chart_speeds, columns, expected_minutes, in_words, plan
 from bladerub.extras.chart.point import PointRow
-from bladerub.extras.chart.search import next_speeds
 from bladerub.extras.chart.table import read_points
 from bladerub.io.errors import BadInput, DamagedFile
 from bladerub.study.cache import ARCHIVE
@@ -122,7 +120,7 @@ def test_each_measure_is_that_of_its_run(few_speeds, make_result, blade, on, mon
 def looked_at(curve, step, share):
     known = np.zeros(curve.size, dtype=bool)
     known[::step] = True
-    while new := next_speeds(known, [np.where(known, curve, np.nan)], share):
+    while new := search.next_speeds(known, [np.where(known, curve, np.nan)], share):
         assert not known[new].any()
         known[new] = True
     return known
@@ -262,7 +260,7 @@ def test_settings_coatings_and_sources_that_shape_a_point_count_for_its_key(few_
     few_speeds["chart"]["speeds"] |= {"dense_stop": 0.24, "dense_step": 0.04}
 
     def digest(case=CASE):
-        return determinants(few_speeds, case, chart_speeds(few_speeds))
+        return column.determinants(few_speeds, case, chart_speeds(few_speeds))
 
     own = digest()
     for *sections, key, value in (

@@ -77,26 +77,15 @@ def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K_and_its_explanation_c
     assert set(found.reset_index().columns) <= described_columns(*plugins.files("columns.csv")).keys()
 
 
-@pytest.fixture
-def leaning(blade):
-    """The first mode, axial, takes node 1 off the casing by a fifth of its way along it; the others rest."""
+def test_a_speed_that_follows_the_modulus_does_not_scatter_and_inclined_bars_need_more_of_it(blade):
+    # the first mode, axial, takes node 1 off the casing by a fifth of its way along it; the others rest
     axial, radial, tangential = np.eye(3)[0], blade.radial_direction, blade.tangential_direction
-    return replace(blade, radial_direction=radial - 0.2 * axial, tangential_direction=tangential + axial)
-
-
-@pytest.fixture
-def peaks():
-    """f4 is a function of E_T alone; f6 lies below the crossing where E = 2."""
-    found = pd.DataFrame(itertools.product((4, 6), E, K), columns=["order", "E", "K"]).assign(theta=0.0)
-    found["E_T"] = found.E * found.K / (found.E + found.K)
-    found["f_peak"] = 0.3 + 0.05 * np.tanh(found.E_T)
-    found["f_crossing"] = np.where((found.order == 6) & (found.E == 2), 0.4, 0.3)
-    return found
-
-
-def test_a_speed_that_follows_the_modulus_does_not_scatter_about_it_and_inclined_bars_need_more_modulus(
-    peaks, leaning
-):
+    leaning = replace(blade, radial_direction=radial - 0.2 * axial, tangential_direction=tangential + axial)
+    # f4 is a function of E_T alone; f6 lies below the crossing where E = 2
+    peaks = pd.DataFrame(itertools.product((4, 6), E, K), columns=["order", "E", "K"]).assign(theta=0.0)
+    peaks["E_T"] = peaks.E * peaks.K / (peaks.E + peaks.K)
+    peaks["f_peak"] = 0.3 + 0.05 * np.tanh(peaks.E_T)
+    peaks["f_crossing"] = np.where((peaks.order == 6) & (peaks.E == 2), 0.4, 0.3)
     found = stiffening.table(peaks, leaning)
     of_four = found.set_index("order").loc[4]
     assert of_four.rank_correlation_E_T == pytest.approx(1)

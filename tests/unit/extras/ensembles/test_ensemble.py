@@ -7,7 +7,6 @@ import pytest
 from scipy import stats
 
 from bladerub.extras.ensembles import bands, ensemble
-from bladerub.extras.ensembles.bands import band
 from bladerub.extras.ensembles.ensemble import Ensemble, expected_cost
 from bladerub.extras.ensembles.figure import peak_bands
 from bladerub.extras.further_columns import with_further
@@ -36,14 +35,9 @@ def coating(study, make_map):
 
 
 @pytest.fixture
-def blade(blade):
-    return replace(blade, f_omega_max=0.5)
-
-
-@pytest.fixture
 def made(study, coating, blade, make_result, solve_by, tmp_path):
     """Make the ensembles of the coating by a stand-in for the solver, whose runs are listed as specs."""
-    specs = []
+    specs, blade = [], replace(blade, f_omega_max=0.5)
 
     def simulate(spec):
         specs.append(spec)
@@ -164,10 +158,10 @@ HEIGHTS = (4.5e-4, 6.5e-4, 5.5e-4)
 def test_a_band_is_that_of_the_closed_form_and_missing_draws_do_not_count():
     half = stats.t(2).ppf((1 + bands.PROBABILITY) / 2) * np.sqrt(7 * 4 / 3)
     assert bands.PROBABILITY == 0.9
-    assert band([1.0, np.nan, 2.0, np.inf, 6.0]) == pytest.approx((2.0, 3 - half, 3 + half))
-    assert band([np.nan, 3.0])[0] == 3.0
-    assert np.isnan(band([np.nan, 3.0])[1:]).all()
-    assert np.isnan(band([])).all()
+    assert bands.band([1.0, np.nan, 2.0, np.inf, 6.0]) == pytest.approx((2.0, 3 - half, 3 + half))
+    assert bands.band([np.nan, 3.0])[0] == 3.0
+    assert np.isnan(bands.band([np.nan, 3.0])[1:]).all()
+    assert np.isnan(bands.band([])).all()
 
 
 @pytest.fixture
@@ -196,7 +190,7 @@ def test_peaks_and_runs_have_the_band_of_all_draws(config, maps, ensembles):
     assert set(table.modulus_unit) == {config["contact"]["modulus_unit"]}
     pd.testing.assert_frame_equal(table.iloc[:, :8], peak_table.table(config, maps))
     of_six, of_four = (table[(table.E == 1.1) & (table.order == order)].iloc[0] for order in (6, 4))
-    expected = band([5e-4, *HEIGHTS])
+    expected = bands.band([5e-4, *HEIGHTS])
     assert of_six.draws == 4
     assert of_six[["amplitude_median", "amplitude_low", "amplitude_high"]].tolist() == pytest.approx(expected)
     assert (of_six.f_peak_median, of_six.f_peak_error) == (0.2, 0)

@@ -1,11 +1,10 @@
 import base64
-import dataclasses
 import gzip
 import hashlib
 import json
 import math
 import re
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pandas as pd
@@ -91,31 +90,24 @@ SETTINGS = {"max_frequency": 2.5, "amplitude_range": [2e-6, 3e-3], "growth_revol
 SETTINGS |= {"spectrum_revolutions": 10, "modulus_unit": 6e8, "doubts": ["eq. (2) is up to 3.9 % off"]}
 
 
-@pytest.fixture
-def page(coating, verdicts, runs, tmp_path):
-    def make(*coatings):
-        maps, manifests, tables, peaks = [], [], [], []
-        for index, each in enumerate(coatings):
-            maps.append(tmp_path / f"{index}.h5")
-            manifests.append(tmp_path / f"{index}.tsv")
-            write_map(maps[-1], each, {})
-            write_manifest(manifests[-1], runs)
-            case = dataclasses.asdict(each.case)
-            tables.append(verdicts.assign(**case))
-            peaks.append(case | {"order": 4, "f_peak": 0.2, "amplitude": 1.25e-3})
-        return build(maps, manifests, pd.DataFrame(peaks), pd.concat(tables), SETTINGS, [])
-
-    return make
-
-
 def scripts(page, kind):
     return re.findall(rf'<script type="{kind}"[^>]*>(.*?)</script>', page, re.DOTALL)
 
 
 def test_the_page_holds_every_coating_runs_only_its_own_scripts_and_a_hostile_name_adds_no_markup(
-    page, coating
+    coating, verdicts, runs, tmp_path
 ):
-    other = dataclasses.replace(coating, case=CoatingCase.rigid("2nd", 0.0))
+    def page(*coatings):
+        maps, manifests = ([tmp_path / f"{at}{of}" for at in range(len(coatings))] for of in (".h5", ".tsv"))
+        for path, manifest, each in zip(maps, manifests, coatings, strict=True):
+            write_map(path, each, {})
+            write_manifest(manifest, runs)
+        cases = [asdict(each.case) for each in coatings]
+        peaks = pd.DataFrame(cases).assign(order=4, f_peak=0.2, amplitude=1.25e-3)
+        table = pd.concat([verdicts.assign(**case) for case in cases])
+        return build(maps, manifests, peaks, table, SETTINGS, [])
+
+    other = replace(coating, case=CoatingCase.rigid("2nd", 0.0))
     text = page(coating, other)
     (study,) = scripts(text, "application/json")
     first, second = json.loads(study)["coatings"]
@@ -134,7 +126,7 @@ def test_the_page_holds_every_coating_runs_only_its_own_scripts_and_a_hostile_na
     assert f"script-src 'sha256-{digests[0]}' 'sha256-{digests[1]}';" in policy
     assert policy.startswith("default-src 'none';")
     hostile = '</script><script>alert(1)</script><img src="x">'
-    text = page(dataclasses.replace(coating, case=CoatingCase(hostile, 2.0, 0.5, 0.15)))
+    text = page(replace(coating, case=CoatingCase(hostile, 2.0, 0.5, 0.15)))
     assert "alert(1)</script>" not in text
     assert "<img" not in text.split("<script>")[0]
     (study,) = scripts(text, "application/json")

@@ -19,19 +19,16 @@ from bladerub.contact.setup import set_up
 from bladerub.contact.spec import ElementLaw, TipProfile
 from bladerub.contact.tip import coverage, relief
 from bladerub.extras.gpu import batch, device, emulation, formulas
-from bladerub.extras.gpu.batch import refusal, variant_of
 from bladerub.extras.gpu.many import simulate_many
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
 
 needs_compiler = pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 TOLERANCE = 1e-9  # over the largest number: what both round off (`test_gpu_rounding`)
-TOLERANCE_WHERE_IT_GROWS = {"stiff": 1e-7, "more_revolutions": 1e-7}
+TOLERANCE_WHERE_IT_GROWS = 1e-7
 CASES = {
-    "theta": {},
     "stiff": {"E": 5.0, "K": 5.0, "max_time_step": 1e-6},
     "no_multiple_of_four_elements": {"n_elements": 201},
-    "more_revolutions": {"revolutions": 5},
     "beyond_the_limit": {"displacement_limit": 4e-4, "revolutions": 6},
     "viscoplastic": {"element_law": ElementLaw("viscoplastic", (("viscosity", 1e4),))},
 }
@@ -62,7 +59,7 @@ def assert_equal(found, expected, tolerance=TOLERANCE):
 def test_the_loop_of_the_gpu_makes_the_steps_of_the_processors(case, blade, spec, change):
     ((found, expected),) = pairs(blade, [change(spec, **CASES[case])])
     assert expected.n_contact_steps > 100
-    assert_equal(found, expected, TOLERANCE_WHERE_IT_GROWS.get(case, TOLERANCE))
+    assert_equal(found, expected, TOLERANCE_WHERE_IT_GROWS if case == "stiff" else TOLERANCE)
 
 
 @needs_compiler
@@ -77,22 +74,15 @@ def test_a_profile_that_turns(blade, spec, change):
 
 
 @needs_compiler
-def test_runs_beside_each_other_are_those_alone_and_of_the_processor_and_close_their_ledgers(
-    blade, spec, change
-):
-    specs = [
-        change(spec, f_omega=0.2, E=0.5),
-        change(spec, theta=0.0, revolutions=3),
-        change(spec, revolutions=3),
-    ]
+def test_runs_beside_each_other_are_those_alone_and_of_the_processor(blade, spec, change):
+    specs = [change(spec, f_omega=0.2, E=0.5), change(spec, theta=0.0, revolutions=3)]
+    specs += [change(spec, revolutions=5)]
     for each, (found, expected) in zip(specs, pairs(blade, specs), strict=True):
-        assert_equal(found, expected, TOLERANCE_WHERE_IT_GROWS["more_revolutions"])
+        assert_equal(found, expected, TOLERANCE_WHERE_IT_GROWS)
         ((_, alone),) = simulate_many(blade, [each], emulation.run)
         np.testing.assert_array_equal(found.wear, alone.wear)
         np.testing.assert_array_equal(found.radial_displacement, alone.radial_displacement)
         assert found.energy == alone.energy
-        assert found.energy.exchanged > 0
-        assert found.energy.residual < 1e-3
 
 
 class Array(np.ndarray):
@@ -163,14 +153,14 @@ def test_the_window_is_wide_enough_other_sizes_have_the_same_program_and_what_ca
 ):
     for half_width in (1.0, 2.0, 2.5, 3.0, 6.0):
         changed = change(spec, half_width=half_width)
-        rows = 4 * variant_of(changed, set_up(blade, changed)[1]).rows
+        rows = 4 * batch.variant_of(changed, set_up(blade, changed)[1]).rows
         farthest = rows - 2 * half_width - 1.5  # as in ``loop.cu``
         assert math.floor(2 * half_width + farthest) + 2 <= rows  # at the worst place
         assert farthest >= 0.5
 
     def source_for(**changes):
         changed = change(spec, **changes)
-        return batch.source(variant_of(changed, set_up(blade, changed)[1]))
+        return batch.source(batch.variant_of(changed, set_up(blade, changed)[1]))
 
     same = source_for(half_width=1.2)
     assert source_for(half_width=1.3) == same
@@ -184,7 +174,7 @@ def test_the_window_is_wide_enough_other_sizes_have_the_same_program_and_what_ca
         ({}, ""),
     ):
         changed = change(spec, **values)
-        told = refusal(changed, set_up(blade, changed)[1])
+        told = batch.refusal(changed, set_up(blade, changed)[1])
         assert reason in told
         assert bool(told) == bool(values)
 
@@ -208,27 +198,22 @@ extern "C" void evaluate(int n, const double* parameters, const double* given, d
 """
 
 
-def evaluation(law: ModuleType, source: str, folder):
-    lanes = (batch.FOLDER / "lanes.h").read_text()
-    text, library = folder / "formulas.cpp", folder / "formulas.so"
-    text.write_text("\n".join([lanes, formulas.of_contact(), formulas.of_law(law, source), WRAPPED]))
-    options = ["-O1", "-std=c++17", "-shared", "-fPIC", "-w", "-o"]
-    subprocess.run([emulation.COMPILER, *options, library, text], check=True)
-    return ctypes.CDLL(str(library)).evaluate
-
-
 @needs_compiler
 @pytest.mark.parametrize("name", NAMES)
 def test_a_formula_gives_what_it_gives_in_python(name, tmp_path):
-    law = ElementLaw(name)
-    module, source = module_of(law), source_of(law)
+    law, text, library = ElementLaw(name), tmp_path / "formulas.cpp", tmp_path / "formulas.so"
+    module, lanes = module_of(law), (batch.FOLDER / "lanes.h").read_text()
+    of_law = formulas.of_law(module, source_of(law))
+    text.write_text("\n".join([lanes, formulas.of_contact(), of_law, WRAPPED]))
+    options = ["-O1", "-std=c++17", "-shared", "-fPIC", "-w", "-o"]
+    subprocess.run([emulation.COMPILER, *options, library, text], check=True)
     rng = np.random.default_rng(5)
     element = module.Element(*rng.uniform(0.5, 2.0, len(module.Element._fields)))
     given = rng.uniform((-1, 0, 0, -3), (3, 2, 2, 3), (500, 4))
     found = np.empty((500, 9))
     parameters = np.repeat(np.array(element), 8)  # a row of eight for each
     addresses = [each.ctypes.data_as(ctypes.c_void_p) for each in (parameters, given, found)]
-    evaluation(module, source, tmp_path)(500, *addresses)
+    ctypes.CDLL(str(library)).evaluate(500, *addresses)
     depth, wear, before, offset = given.T
     force, increment = module.return_mapping(element, depth, wear)
     tip = TipProfile(2.0, 20e-6)

@@ -14,20 +14,6 @@ from bladerub.study.plan import planned_run
 
 
 @pytest.fixture
-def gpu(monkeypatch):
-    """Stand in for the GPU; lists how many runs it was given at once."""
-    given = []
-
-    def device(works):
-        for work in works:
-            given.append(len(work.runs))
-            yield from emulation.run([work])
-
-    monkeypatch.setattr(server, "find", lambda: device)
-    return given
-
-
-@pytest.fixture
 def on_gpu(tmp_path):
     mesh = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
     path = tmp_path / "gpu.yaml"
@@ -50,11 +36,19 @@ def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
 
 
 @pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
-def test_speeds_are_computed_together(gpu, on_gpu):
+def test_speeds_are_computed_together(on_gpu, monkeypatch):
+    given = []
+
+    def device(works):
+        for work in works:
+            given.append(len(work.runs))
+            yield from emulation.run([work])
+
+    monkeypatch.setattr(server, "find", lambda: device)
     blade, coating = br.build_blade(on_gpu), on_gpu.coating("2nd", E=2, K=0.5)
     runs_ = [coating.at(f, revolutions=3) for f in (0.19, 0.2)]
     found = maps.solve_all(blade, runs_, jobs=2, follow=False, progress=False)
-    assert gpu == [2]
+    assert given == [2]
     assert [each.f_omega for each in found] == [0.19, 0.2]
     alone = br.simulate(blade, runs_[1], follow=False)
     np.testing.assert_array_equal(found[1].wear, alone.wear)

@@ -2,6 +2,7 @@ import types
 
 import pandas as pd
 import pytest
+from blade_parts import TWISTED
 
 from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.build import build
@@ -11,16 +12,15 @@ REDUCTION = {"modes_per_speed": 2, "rank_tolerance": 1e-6, "accuracy_speeds": 5,
 REDUCTION["f_omega_max"] = 0.8  # so fast that eq. (2) is not enough
 
 
-@pytest.fixture
-def reduced(twisted_config):
-    return lambda **changes: build({"blade": twisted_config, "reduction": REDUCTION | changes})
+def reduced(**changes):
+    return build({"blade": TWISTED, "reduction": REDUCTION | changes})
 
 
 def largest(built):
     return errors_by_mode(built.accuracy)[:6].max()
 
 
-def test_speeds_or_modes_are_added_until_the_error_is_allowed(reduced):
+def test_speeds_or_modes_are_added_until_the_error_is_allowed():
     plain = reduced()
     tolerance = 0.2 * largest(plain).speed_law
     assert largest(plain).reduced_model > 2 * tolerance

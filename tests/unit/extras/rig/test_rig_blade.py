@@ -1,6 +1,5 @@
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,6 +18,7 @@ from bladerub.extras.rig.passes import simulate_passes
 from bladerub.extras.rig.plan import PLAN, read_rigs
 from bladerub.extras.rig.spec import MEASURABLE, Rig
 from bladerub.extras.rig.table import compared, table
+from bladerub.io.folders import ROOT
 from bladerub.io.tables import described_columns
 
 TIP = {"tip_width": 1e-2, "tip_length": 2e-3, "track": 1.0, "speed": 125.0, "incursion": 1e-4}
@@ -70,7 +70,6 @@ def test_a_rounded_tip_converges_with_the_elements_and_its_energy_to_second_orde
     assert coarse < 1e-3
 
 
-DAMPING = 2.3e-3
 AS_RIGID = ["normal_impulse", "tangential_impulse", "normal_force", "tangential_force"]
 AS_RIGID += ["worn_depth", "pass_wear", "pass_energy", "temperature_rise"]
 
@@ -83,7 +82,7 @@ def rig(blade):
 
 
 def passes(rig, blade, **options):
-    return elastic.simulate_blade_passes(rig, blade, DAMPING, **options)
+    return elastic.simulate_blade_passes(rig, blade, damping_ratio=2.3e-3, **options)
 
 
 @pytest.mark.parametrize(
@@ -129,9 +128,6 @@ def test_what_cannot_be_simulated_is_refused(rig, blade):
         passes(hard, replace(blade, stiffness_0=soft))
     with pytest.raises(ValueError, match=r"tip_length = 0.5: must be at most the track, 0.4"):
         replace(RIG, tip_length=0.5, track=0.4)
-
-
-ROOT = Path(__file__).parents[4]
 
 
 def rigs(folder, **changes):

@@ -110,16 +110,15 @@ def main(runs, seed, most_nodes, names):
         module_of(law)
         guard(law, n_nodes)
         blade, spec = drawn_blade(rng, n_nodes), drawn_spec(rng, law)
+        status = "refused"
         with contextlib.suppress(ValueError), np.errstate(all="ignore"):
-            counts["refused"] += 1
             if rng.random() < 0.3:
                 n_blades = int(rng.integers(1, 4))
                 disk = Disk.ring(n_blades, [0.01]) if n_blades > 1 and rng.random() < 0.5 else None
                 status = simulate_row(blade, spec, Row.drawn(n_blades, number, 1e-5, 1e-3, disk)).status
             else:
                 status = simulate(blade, spec).status
-            counts[status] += 1
-            counts["refused"] -= 1
+        counts[status] += 1
     print(dict(counts))
 
 

@@ -9,7 +9,6 @@ from bladerub.extras.variations import robustness as summary
 from bladerub.extras.variations.emulator import Emulator, compared, held_out
 from bladerub.extras.variations.factors import Factor, lay_over
 from bladerub.extras.variations.figures import robustness
-from bladerub.extras.variations.implausibility import predicted, without
 from bladerub.extras.variations.plan import Candidates, Part, Plan
 from bladerub.extras.variations.targets import AT_LEAST, AT_MOST, EQUAL, TARGETS, Target
 from bladerub.extras.variations.verdicts import verdicts as marks_of
@@ -199,7 +198,8 @@ def test_what_is_left_lies_where_the_targets_are_met_and_the_next_sets_there_far
     assert left.plausible["f4_soft"] == pytest.approx(0.15, rel=0.1)
     drawn = waves.draw(plan, 1, left, emulators, positions)
     assert len(drawn) == waves.DRAWN
-    assert (without(predicted(emulators, drawn), left.given_up) <= 3).all()
+    misses = implausibility.predicted(emulators, drawn)
+    assert (implausibility.without(misses, left.given_up) <= 3).all()
     first = drawn[:8]
     apart = np.linalg.norm(first[:, None] - first, axis=2)[~np.eye(8, dtype=bool)]
     assert apart.min() > 0.02
@@ -216,24 +216,19 @@ def verdicts_of(**holds):
     return table.melt("set", var_name="id", value_name="holds")
 
 
-@pytest.fixture
-def chosen(plan, positions, measured):
-    """Two parts of which both hold in set 7, one in set 3 and in the nearest, and none in the others."""
-    table = pd.DataFrame(positions, index=measured.index, columns=["unit", "hub"])
-    sets = np.arange(len(positions))
-    nearest = int(candidates.misfit(measured).idxmin())
-    judged = verdicts_of(C4a=np.isin(sets, [3, 7]), C4b=np.isin(sets, [7, nearest]))
-    return candidates.choose(plan, table, measured, judged)
-
-
 def test_the_best_sets_and_their_neighbours_are_chosen_and_the_parts_that_hold_there_counted(
-    chosen, measured, plan
+    plan, positions, measured
 ):
+    """Of two parts both hold in set 7, one in set 3 and in the nearest, and none in the others."""
+    table = pd.DataFrame(positions, index=measured.index, columns=["unit", "hub"])
+    sets, misfit = np.arange(len(positions)), candidates.misfit(measured)
+    nearest = int(misfit.idxmin())
+    judged = verdicts_of(C4a=np.isin(sets, [3, 7]), C4b=np.isin(sets, [7, nearest]))
+    chosen = candidates.choose(plan, table, measured, judged)
     assert len(chosen) == 3 * 4
     themselves = chosen[chosen.neighbour == 0]
     assert themselves.set.iloc[0] == candidates.OWN
-    misfit = candidates.misfit(measured)
-    assert list(themselves.set[1:]) == [7, misfit.idxmin()]
+    assert list(themselves.set[1:]) == [7, nearest]
     assert list(themselves.misfit) == list(misfit[themselves.set])
     for number in (0, 1, 2):
         itself, *others = chosen[chosen.candidate == number][["unit", "hub"]].to_numpy()

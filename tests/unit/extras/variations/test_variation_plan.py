@@ -183,13 +183,13 @@ def test_the_plans_of_the_repository_have_the_study_in_them(study, file, of_the_
 CONE = Factor("cone", "degrees", {"blade.tip_cone": (11.0, 15.0)}, multiple_of=1.0)
 
 
-@pytest.fixture
-def built(monkeypatch):
-    """Small studies that are not simulated; the cones of the blades that had to be built."""
-    cones = []
+def test_each_set_has_verdicts_measures_and_cost_and_equal_blades_are_built_once(
+    config, tmp_path, monkeypatch
+):
+    built = []  # cones of the blades
 
     def write(cone, origin, model, mesh, rom_accuracy):
-        cones.append(cone)
+        built.append(cone)
         model.touch()
 
     def conduct(config, model, rom_accuracy, folder, claims, report):
@@ -202,10 +202,6 @@ def built(monkeypatch):
     stand_ins["measure"] = lambda evidence, claims: {f"of_{claim}": 1.0 for claim in claims}
     for name, function in stand_ins.items():
         monkeypatch.setattr(job, name, function)
-    return cones
-
-
-def test_each_set_has_verdicts_measures_and_cost_and_equal_blades_are_built_once(built, config, tmp_path):
     empty = (Located.of({}, UNKNOWN),)
     parts = Part("soft", empty, ("C4",)), Part("stiff", empty, ("C12",))
     plan = Plan({each.name: each for each in parts}, (CONE,))

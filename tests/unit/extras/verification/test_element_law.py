@@ -14,13 +14,12 @@ DENSIFYING = Path(__file__).parents[4] / "docs" / "laws" / "densifying.py"
 COATINGS = [
     Coating(E, K, 0.0, 1.5e-8, 600e6, 6e-3, 2000) for E, K in ((0.05, 10.0), (20.0, 0.05), (1.1, 0.5))
 ]
-THERMAL = described_law("thermal", LAYER)
 RIGHT = [
     PLASTIC,
     described_law("perfectly_plastic", {"yield_stress": 1e6}),
     described_law("viscoplastic", {"viscosity": 1e4}),
     described_law("brittle", {"break_strain": 5e-3}),
-    THERMAL,
+    described_law("thermal", LAYER),
     described_law("densifying", {"doubling": 1e-4}, DENSIFYING.read_text(encoding="utf-8")),
 ]
 FORCE = "return maximum(trial - element.elastic * increment, 0.0), increment"

@@ -1,1 +1,0 @@
-from blade_fixtures import *  # noqa: F403 (fixtures)
