@@ -44,6 +44,13 @@ ROWS = [
     ("ensemble: {members: -8}\n", 1, "ensemble.members", "a whole number from 0 to 1000"),
     ("analysis: {peaks: {orders: [4, 4]}}\n", 1, "analysis.peaks.orders", "must not name one twice"),
     ("results: ../elsewhere\n", 1, "results", "a folder below"),
+    ("contact:\n  tip_profile: {edge_drop: 20}\n", 2, "contact.tip_profile.edge_drop", 'write "20 µm"'),
+    ("speeds:\n  step: 0\n", 2, "speeds.step", "a number from 0.0001 to 2"),
+    ("solver:\n  tolerance: 1 rpm\n", 2, "solver.tolerance", "is a speed; must be a number, or %"),
+    ("solver: {device: gpgpu}\n", 1, "solver.device", "must be cpu"),
+    ("analysis: {max_order: 6e9}\n", 1, "analysis.max_order", "a number from 1 to 10000"),
+    ("blade: 0.2\n", 1, "blade", "a group of keys"),
+    ("figures: {amplitude_range: [1]}\n", 1, "figures.amplitude_range", "a list of 2 entries, ascending"),
 ]
 BOTH = "coatings: [{casing: 2nd, E: [1], K: [2], theta: [0.0], friction: [0.1]}]\n"
 MISTAKES = [Mistake(*row) for row in (*ROWS, (BOTH, 1, "coatings[0].theta", "unknown key"))]
