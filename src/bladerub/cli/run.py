@@ -87,6 +87,7 @@ def run(options: argparse.Namespace) -> None:
     from bladerub.api.simulate import simulate
     from bladerub.api.study import Study
     from bladerub.config.quantities import references
+    from bladerub.study.solver import solver_of
 
     inputs.convert(options, *_QUANTITIES, reference=references(config))
     study, more = Study(config, inputs.study_folder()), {}
@@ -106,6 +107,7 @@ def run(options: argparse.Namespace) -> None:
         limit = f"reduction.f_omega_max = {fastest:g} (times the first frequency at rest)"
         raise InputError(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
     _point_out(options)
+    solver_of(config).check()
     blade = blade or inputs.read_blade(options, config)
     with refused(ValueError, OSError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()

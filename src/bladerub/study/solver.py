@@ -76,6 +76,9 @@ class Solver:
         """Name and digest of what determines a run besides `bladerub.contact.sources`, if anything."""
         return {}
 
+    def check(self) -> None:
+        """Raise `BadInput` where what it needs is not there, before any work."""
+
     def start(self) -> None:
         """Begin, in the main process of a workflow, what its jobs on this machine share, if anything."""
 

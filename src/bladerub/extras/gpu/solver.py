@@ -1,12 +1,13 @@
 """A GPU as what computes the runs of a study (`bladerub.study.solver`)."""
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.gpu import process
+from bladerub.extras.gpu import ADDRESS, process
 from bladerub.io import sources
 from bladerub.study.solver import Solved, Solver
 
@@ -34,6 +35,13 @@ class Gpu(Solver):
     def determinants(self) -> dict[str, str]:
         """Digest its sources: the last bits differ from those of the processor, and so a chaotic run."""
         return {"gpu": gpu_digest()}
+
+    def check(self) -> None:
+        """Raise `bladerub.extras.gpu.device.NoGpuError` without a GPU."""
+        if not os.environ.get(ADDRESS):
+            from bladerub.extras.gpu import device  # loads the compiler
+
+            device.connect()
 
     def start(self) -> None:
         """Start the process that has the GPU."""

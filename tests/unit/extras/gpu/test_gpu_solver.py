@@ -1,14 +1,17 @@
 import threading
 import time
 from multiprocessing.connection import Listener
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
 
 import bladerub as br
 from bladerub.api import map as maps
+from bladerub.cli import main
 from bladerub.extras.gpu import emulation, server, solver
 from bladerub.extras.gpu.batch import Output, Work
+from bladerub.extras.gpu.device import NoGpuError
 from bladerub.extras.rows.spec import Row
 from bladerub.study.plan import planned_run
 
@@ -19,6 +22,15 @@ def on_gpu(tmp_path):
     path = tmp_path / "gpu.yaml"
     path.write_text(f"{mesh}results: results_of_no_workflow\nsolver: {{device: gpu}}\n")
     return br.load_study(path)
+
+
+def test_without_one_no_blade_is_built(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("bladerub.extras.gpu.device.connect", Mock(side_effect=NoGpuError("no GPU")))
+    monkeypatch.setattr("bladerub.cli.inputs.study_folder", lambda: tmp_path)
+    run = "run --device gpu --casing 2nd --E 2 --K 0.5 --f 0.19"
+    assert main(run.split()) == 2
+    assert capsys.readouterr().err == "bladerub run: no GPU\n"
+    assert not list(tmp_path.iterdir())
 
 
 def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
