@@ -45,17 +45,6 @@ def clone(study: Workspace, tmp_path_factory: pytest.TempPathFactory) -> Workspa
     return clone
 
 
-@pytest.fixture(scope="module")
-def full_study(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
-    """The full study with the coatings and speeds of the quick one, of which nothing has been computed."""
-    full = Workspace.at(tmp_path_factory.mktemp("full"))
-    quick, path = (full.folder / "config" / f"{name}.yaml" for name in ("quick", "config"))
-    config = yaml.safe_load(path.read_text())
-    config |= {key: yaml.safe_load(quick.read_text())[key] for key in ("coatings", "speeds", "chart")}
-    path.write_text(yaml.safe_dump(config, sort_keys=False))
-    return full
-
-
 def test_the_examples_of_the_readme(clone: Workspace):
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert len(INSTALL.findall(text)) == 2
@@ -100,7 +89,12 @@ def test_a_study_and_a_blade_of_ones_own(clone: Workspace):
     assert made == ["fig01_blade.png", "fig02_campbell.png", "wear_map/2nd_E2_K0.5_theta0.png"]
 
 
-def test_the_guides_name_targets_that_exist(full_study: Workspace):
+def test_the_guides_name_targets_that_exist(workspace: Workspace):
+    """Of the full study with the coatings and speeds of the quick one; nothing has been computed."""
+    quick, path = (workspace.folder / "config" / f"{name}.yaml" for name in ("quick", "config"))
+    config = yaml.safe_load(path.read_text())
+    config |= {key: yaml.safe_load(quick.read_text())[key] for key in ("coatings", "speeds", "chart")}
+    path.write_text(yaml.safe_dump(config, sort_keys=False))
     gathered: dict[tuple[str, ...], set[str]] = {}  # targets by the options beside the number of cores
     for line in (line for page in GUIDES for block in blocks(page) for line in block.splitlines()):
         command, *words = line.split() or [""]
@@ -110,5 +104,5 @@ def test_the_guides_name_targets_that_exist(full_study: Workspace):
         first = next((at for at, word in enumerate(words) if word.startswith("-")), len(words))
         gathered.setdefault(tuple(words[first:]), set()).update(words[:first] or ["all"])
     for options, targets in gathered.items():
-        planned = full_study.dry_run(*targets, *options, "--quiet")
+        planned = workspace.dry_run(*targets, *options, "--quiet")
         assert all(target in planned for target in targets - {"all"}), options

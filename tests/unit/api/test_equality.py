@@ -25,21 +25,16 @@ def followed(blade, planned):
 
 
 @pytest.fixture(scope="module")
-def unbounded(study, blade):
-    """A run that ends within its first revolution: without a spectrum."""
-    return br.simulate(blade, study.rigid("2nd", friction=1.0).at(0.19, revolutions=3))
-
-
-@pytest.fixture(scope="module")
 def ensemble(blade, planned, followed):
     return br.simulate_ensemble(blade, planned, 2, own=followed, jobs=2, progress=False)
 
 
-def test_a_run_is_written_whole(study, run, followed, unbounded, blade, tmp_path):
+def test_a_run_is_written_whole(study, run, followed, blade, tmp_path):
     settings = study.config["analysis"]["divergence"]
     assert followed.longer
     assert followed.stress
-    assert np.isnan(unbounded.spectrum).all()
+    unbounded = br.simulate(blade, study.rigid("2nd", friction=1.0).at(0.19, revolutions=3))
+    assert np.isnan(unbounded.spectrum).all()  # it ends within its first revolution
     row = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), row=br.Row.even(2, length=[0, 5e-5]))
     for number, each in enumerate((run, followed, unbounded, row)):
         path = tmp_path / f"{number}.h5"

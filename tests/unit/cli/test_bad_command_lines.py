@@ -27,6 +27,7 @@ COMMANDS = {
     "verify --sample 1": "the following arguments are required: --seed",
     "benchmark --nodes 16 33": "--nodes 33: must be from 4 to 32",
     "benchmark --config rigid.yaml": "coatings: must have an abradable one",
+    "config unsafe.yaml": "unsafe.yaml:2: not valid YAML (the tag",
     "compare nowhere rotor37": "nowhere",
 }
 
@@ -37,6 +38,7 @@ def folder(folder):
     (folder / "text").write_text("mass = 1\n")
     rigid = "coatings: [{casing: 2nd, coating: rigid, friction: [0]}]\nanalysis: {histories: []}\n"
     (folder / "rigid.yaml").write_text(rigid)
+    (folder / "unsafe.yaml").write_text("a: 1\nb: !!python/object/apply:os.system [touch executed]\n")
     os.mkfifo(folder / "pipe")
     matrices, nodes = 4 * [np.eye(24)], 3 * [np.eye(8, 3)]
     blade = ReducedBlade(*matrices, *nodes, 1.0, 0.4, 6, 1e-5, 0.2)

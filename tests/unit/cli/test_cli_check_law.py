@@ -26,31 +26,23 @@ def test_a_law_is_said_to_be_right_or_told_what_is_wrong(tmp_path, monkeypatch, 
     assert "- wear is negative (depth " in capsys.readouterr().out
 
 
-@pytest.fixture
-def own(tmp_path):
-    """Write the reference numbers of Rotor 37 as another program's, some of them 5 % higher."""
-
-    def written(*changed):
+def test_numbers_that_are_off_are_named_and_the_exit_code_is_1(tmp_path, command):
+    def own(*changed):
+        """Write the reference numbers of Rotor 37 as another program's, some of them 5 % higher."""
         table = pd.read_csv(BENCHMARKS / "rotor37" / "blade.csv")[["number", "value", "unit"]]
         table.loc[table.number.isin(changed), "value"] *= 1.05
         table.to_csv(tmp_path / "blade.csv", index=False)
-        return str(tmp_path)
+        return tmp_path
 
-    return written
-
-
-def test_numbers_that_are_off_are_named_and_the_exit_code_is_1(own, command):
     assert command("compare", own(), BENCHMARKS / "rotor37")[0] == 0
     code, out, _ = command("compare", own("f1_rest"), "rotor37", "--json")
     assert code == 1
     assert [row["number"] for row in json.loads(out)["different"]] == ["f1_rest"]
 
 
-@pytest.fixture
-def table(tmp_path):
-    """Write a curve of E = 900, K = 60, σ_Y = 9 MPa up to a strain, with noise."""
-
-    def written(highest):
+def test_the_lines_are_accepted_by_the_config(tmp_path, capsys):
+    def table(highest):
+        """Write a curve of E = 900, K = 60, σ_Y = 9 MPa up to a strain, with noise."""
         strain = np.linspace(highest / 40, highest, 40)
         exact = np.minimum(900 * strain, 9 + 900 * 60 / 960 * (strain - 0.01))
         noisy = exact + np.random.default_rng(1).normal(0, 0.05, strain.size)
@@ -59,10 +51,6 @@ def table(tmp_path):
         path.write_text("\n".join(lines) + "\n", encoding="utf-8")
         return str(path)
 
-    return written
-
-
-def test_the_lines_are_accepted_by_the_config(table, tmp_path, capsys):
     assert main(["fit-coating", table(0.05)]) == 0
     lines = capsys.readouterr().out.partition("for the config:\n")[2]
     file = tmp_path / "fitted.yaml"

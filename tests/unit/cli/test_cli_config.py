@@ -37,14 +37,6 @@ def test_a_valid_config_is_summed_up_and_its_law_named_but_not_executed(study, c
     assert "executes no file" in capsys.readouterr().out
 
 
-def test_what_is_no_config_is_one_line_with_file_and_line_and_executes_nothing(study, capsys):
-    (study / "theirs.yaml").write_text("a: 1\nb: !!python/object/apply:os.system [touch executed]\n")
-    assert main(["config", "theirs.yaml"]) == 2
-    error = capsys.readouterr().err
-    assert error.startswith("theirs.yaml:2: ")
-    assert error.count("\n") == 1
-
-
 def _record(study, **law):
     made_with = {"files": [], "command_line": {"contact": {"law": law}}}
     (study / "results" / "config.json").write_text(json.dumps(made_with))

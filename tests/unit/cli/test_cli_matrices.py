@@ -39,29 +39,25 @@ def test_what_it_prints_is_a_config_of_the_blade(written, command, refusal, tmp_
     refusal("import", written / "m", "--omega-max", "400")
 
 
-@pytest.fixture
-def study(written, tmp_path, monkeypatch):
-    """Stands for the repository, with a config of a blade of matrices."""
+def test_a_blade_without_elements_goes_to_programs_that_need_none(
+    written, command, refusal, tmp_path, monkeypatch
+):
     monkeypatch.setattr(inputs, "study_folder", lambda: tmp_path)
     shutil.copytree(written / "m", tmp_path / "m")
     source = {"source": {"matrices": str(tmp_path / "m")}}
     (tmp_path / "mine.yaml").write_text(yaml.safe_dump({"blade": source}))
-    return tmp_path
-
-
-def test_a_blade_without_elements_goes_to_programs_that_need_none(study, command, refusal):
-    words = ("export", "--config", study / "mine.yaml")
-    assert command(*words, "--mesh", study / "blade.vtu")[0] == 0
-    mesh = meshio.vtu.read(study / "blade.vtu")
-    data, _ = hdf5.read(study / "results" / "blade" / "mesh.h5")
+    words = ("export", "--config", tmp_path / "mine.yaml")
+    assert command(*words, "--mesh", tmp_path / "blade.vtu")[0] == 0
+    mesh = meshio.vtu.read(tmp_path / "blade.vtu")
+    data, _ = hdf5.read(tmp_path / "results" / "blade" / "mesh.h5")
     assert [block.type for block in mesh.cells] == ["vertex"]
     np.testing.assert_array_equal(mesh.points, data["points"])
     modes = [name for name in mesh.point_data if name.startswith("mode_")]
     np.testing.assert_array_equal(mesh.point_data[modes[1]], data["mode_shape"][1])
-    assert command(*words, "--matrices", study / "blade.npz")[0] == 0
-    before = sorted(study.iterdir())
+    assert command(*words, "--matrices", tmp_path / "blade.npz")[0] == 0
+    before = sorted(tmp_path.iterdir())
     for option, name in (("--calculix", "decks"), ("--mesh", "blade.inp"), ("--fe-matrices", "again")):
-        line = refusal(*words, option, study / name)
+        line = refusal(*words, option, tmp_path / name)
         assert "of matrices" in line
         assert "without elements" in line
-    assert sorted(study.iterdir()) == before
+    assert sorted(tmp_path.iterdir()) == before

@@ -15,21 +15,16 @@ from bladerub.workflow import invocation, settings
 from bladerub.workflow.studies import rules_of_studies
 
 
-@pytest.fixture
-def manifest(tmp_path):
-    (tmp_path / "confirmation").mkdir()
-    for name, size in (("0.1.h5", 10), ("0.2.h5", 20), ("confirmation/0.2.h5", 30)):
-        (tmp_path / name).write_bytes(bytes(size))
-    rows = [("0.1.h5", 0.1, "a", "completed", 10), ("0.2.h5", 0.2, "b", "completed", 20, "c", 30)]
-    write_manifest(tmp_path / "manifest.tsv", [ManifestRow(*row) for row in rows])
-    return tmp_path / "manifest.tsv"
-
-
 @pytest.mark.parametrize(
     ("name", "size"), [("0.1.h5", None), ("confirmation/0.2.h5", 9), ("confirmation/0.2.h5", 30)]
 )
-def test_a_run_that_is_missing_or_cut_short_is_a_loss(manifest, name, size):
-    run = manifest.parent / name
+def test_a_run_that_is_missing_or_cut_short_is_a_loss(tmp_path, name, size):
+    manifest, run = tmp_path / "manifest.tsv", tmp_path / name
+    (tmp_path / "confirmation").mkdir()
+    for file, length in (("0.1.h5", 10), ("0.2.h5", 20), ("confirmation/0.2.h5", 30)):
+        (tmp_path / file).write_bytes(bytes(length))
+    rows = [("0.1.h5", 0.1, "a", "completed", 10), ("0.2.h5", 0.2, "b", "completed", 20, "c", 30)]
+    write_manifest(manifest, [ManifestRow(*row) for row in rows])
     run.unlink() if size is None else run.write_bytes(bytes(size))
     loss = invocation.loss(manifest)
     assert loss is None if size == 30 else str(run) in loss

@@ -58,14 +58,10 @@ def test_the_log_of_a_job_is_open_before_its_imports():
         assert [ast.unparse(statement) for statement in first] == logged, script
 
 
-@pytest.fixture
-def job(tmp_path):
+def test_tables_and_figure_go_to_their_outputs(tmp_path):
     paths = {name: str(tmp_path / f"a.{name}") for name in ("png", "pdf")}
     paths |= {name: str(tmp_path / f"{name}.csv") for name in ("table", "data")}
-    return SimpleNamespace(output=paths, config={"seed": 1}, params={"dpi": 70}, scriptdir="scripts")
-
-
-def test_tables_and_figure_go_to_their_outputs(job):
+    job = SimpleNamespace(output=paths, config={"seed": 1}, params={"dpi": 70}, scriptdir="scripts")
     outputs.save(job, style.new_figure(2, 1), table=TABLE, data=TABLE)
     assert imread(job.output["png"]).shape[:2] == (70, 140)
     assert Path(job.output["pdf"]).read_bytes().startswith(b"%PDF")
