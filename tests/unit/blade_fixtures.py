@@ -19,7 +19,7 @@ def twisted_config():
     return copy.deepcopy(TWISTED)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def make_block():
     """Make a `Solid` of given side lengths, element counts, origin and distortion of its inside."""
 

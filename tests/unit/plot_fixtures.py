@@ -24,28 +24,11 @@ def draws(tmp_path) -> Callable[[Figure], Figure]:
 
 
 @pytest.fixture
-def coating_map() -> CoatingMap:
+def coating_map(make_map) -> CoatingMap:
     """Six speeds, a hole in the spectrum at the third, the last run ended early; eo(4) peaks at 0.3."""
-    f_omega = np.array([0.1, 0.15, 0.2, 0.25, 0.3, 0.35])
-    order = np.arange(0, 8.1, 0.5)
-    angle = (np.arange(40) + 0.5) * 2 * np.pi / 40
-    height = np.exp(-(((f_omega - 0.3) / 0.05) ** 2))
-    amplitude = 1e-6 + 1e-4 * np.outer(height, np.abs(order - 4) < 0.1)
-    amplitude[2] = np.nan
-    wear = np.outer(f_omega * 1e-3, 1 + np.cos(5 * angle))
-    return CoatingMap(
-        case=CoatingCase("2nd", 0.11, 0.5, 0.15),
-        f_omega=f_omega,
-        C1=np.sqrt(1 + 4 * f_omega**2),
-        angle=angle,
-        wear=wear,
-        wear_node=np.repeat(wear[:, None], 8, axis=1),
-        spectrum_order=order,
-        spectrum_amplitude=amplitude,
-        revolution_peak=np.ones((6, 20)),
-        revolution_amplitude=np.ones((6, 20)),
-        confirmation_amplitude=np.full((6, 60), np.nan),
-        max_wear=wear.max(axis=1),
-        lobes=np.array([5, 5, 10, 5, 5, 4]),
-        status=np.array(["completed"] * 5 + ["unbounded"]),
-    )
+    status = ["completed"] * 5 + ["unbounded"]
+    f_omega = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35]
+    case = CoatingCase("2nd", 0.11, 0.5, 0.15)
+    coating = make_map(case, {4: (0.3, 1e-4)}, f_omega, [5, 5, 10, 5, 5, 4], status=status)
+    coating.spectrum_amplitude[2] = np.nan
+    return coating

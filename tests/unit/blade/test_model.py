@@ -59,17 +59,13 @@ def test_the_radius_of_the_tip_is_the_distance_from_the_axis(blade):
     assert tip_radius(moved) == pytest.approx(0.65)
 
 
-@pytest.fixture
-def tip():
-    """A tip of 15 by 3 nodes on a cylinder, staggered, whose middle row has the interface."""
+def test_turn_about_the_axis_of_rotation_has_its_angle_as_slope():
+    """On a tip of 15 by 3 nodes on a cylinder, staggered, whose middle row has the interface."""
     along, across = np.meshgrid(np.linspace(-0.04, 0.04, 15), np.linspace(-4e-3, 4e-3, 3), indexing="ij")
     x, arc = (0.5 * along - 0.8 * across).ravel(), (0.8 * along + 0.5 * across).ravel()
     points = np.column_stack([x, RADIUS * np.sin(arc / RADIUS), RADIUS * np.cos(arc / RADIUS)])
     middle = np.flatnonzero(np.isclose(across.ravel(), 0))[::2]
-    return BladeMesh(NodeCloud(points), np.array([], dtype=int), np.arange(len(points)), middle)
-
-
-def test_turn_about_the_axis_of_rotation_has_its_angle_as_slope(tip):
+    tip = BladeMesh(NodeCloud(points), np.array([], dtype=int), np.arange(len(points)), middle)
     _, y, z = tip.mesh.points.T
     turn = np.column_stack([0 * y, z, -y])  # forward by 1 rad, to first order
     along = directions(tip.mesh.points[tip.interface], 0.0)

@@ -1,12 +1,9 @@
 import numpy as np
 import pytest
-from blade_parts import TITANIUM
 from scipy import sparse
 from scipy.linalg import eigh
 
-from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import factorise, lowest_modes
-from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.reduction import Partition, internal_solve, mass_orthonormal, project, transformation
 from bladerub.blade.rotation import equilibrium
 
@@ -14,15 +11,13 @@ ETA = 4
 
 
 @pytest.fixture(scope="module")
-def blocks():
+def blocks(make_block):
     """Stiffness at three speeds, mass, partition and Φ of a leaning bar with two interface nodes."""
-    size, origin = np.array([0.04, 0.006, 0.2]), np.array([-0.02, 0.002, 0.4])
-    corners = [np.linspace(0, 1, n + 1) for n in (3, 1, 6)]
-    mesh, cube = hexahedral_mesh(*corners, lambda *c: np.stack(c) * size[:, None] + origin[:, None])
-    solid = Solid(mesh, Material.from_config(TITANIUM), np.flatnonzero(cube[2] == 0))
+    solid = make_block((0.04, 0.006, 0.2), (3, 1, 6), origin=(-0.02, 0.002, 0.4), clamp_bottom=True)
     fits = [equilibrium(solid, omega).stiffness for omega in (0.0, 250.0, 500.0)]
-    tip = np.flatnonzero((cube[2] == 1) & (cube[1] == 0.5))
-    ends = tip[np.argsort(cube[0, tip])][[0, -1]]
+    x, y, z = solid.mesh.points.T
+    tip = np.flatnonzero(np.isclose(z, 0.6) & np.isclose(y, 0.005))
+    ends = tip[np.argsort(x[tip])][[0, -1]]
     partition = Partition.around(solid.coordinates(ends), solid.free.size)
     return fits, solid.mass, partition, transformation(fits, solid.mass, partition, ETA, 1e-8)
 

@@ -8,8 +8,6 @@ import pytest
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
 
-from bladerub.io import hdf5
-from bladerub.io.hdf5 import Variable
 from bladerub.plots import bins, engine_orders, style, titles
 from bladerub.plots.campbell import campbell
 from bladerub.plots.histogram import peak_histogram
@@ -34,11 +32,6 @@ PEAKS = pd.DataFrame(
     ],
     columns=["casing", "E", "K", "theta", "order", "f_peak", "amplitude"],
 )
-REVOLUTION = (np.arange(200) + 0.5) / 50
-STEADY = 1e-4 * np.sin(12 * np.pi * REVOLUTION)
-GROWING = STEADY * np.exp(REVOLUTION / 2)
-GROWING[150:] = np.nan
-AMPLITUDE = [1.6e-4, 2.7e-4, 4.4e-4, np.nan]
 
 
 def second(axes, along):
@@ -72,7 +65,7 @@ def test_amplitudes_and_c1_lie_on_their_frequency_on_the_given_scale(coating_map
     np.testing.assert_allclose(mesh.get_array().reshape(6, -1)[4], 1e3 * coating_map.spectrum_amplitude[4])
     assert (mesh.norm.vmin, mesh.norm.vmax) == pytest.approx((5e-4, 0.5))
     corners = mesh.get_coordinates()
-    of_peak = (corners[4, 8] + corners[5, 9]) / 2  # f_Ω = 0.3, eo(4)
+    of_peak = (corners[4, 40] + corners[5, 41]) / 2  # f_Ω = 0.3, eo(4)
     np.testing.assert_allclose(of_peak, [4 * 0.3, 0.3], rtol=1e-2)
     (c1,) = [line for line in axes.lines if line.get_label() == "$C_1$"]
     np.testing.assert_array_equal(c1.get_xydata(), np.transpose([coating_map.C1, coating_map.f_omega]))
@@ -80,7 +73,7 @@ def test_amplitudes_and_c1_lie_on_their_frequency_on_the_given_scale(coating_map
 
 
 def test_peaks_are_drawn_with_their_curves(coating_map, draws):
-    four, six = coating_map.spectrum_amplitude[:, [8, 12]].T
+    four, six = coating_map.spectrum_amplitude[:, [40, 60]].T
     sections = [
         PeakSection(4, four, (0.25, 0.36), Peak(0.3, four[4])),
         PeakSection(6, six, (0.16, 0.24), Peak(0.2, 1e-6)),
@@ -157,31 +150,21 @@ def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(dra
     assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
 
 
-def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(tmp_path, draws):
-    paths = []
-    for theta, displacement, amplitude in ((0.0, STEADY, [1e-4] * 4), (0.15, GROWING, AMPLITUDE)):
-        paths.append(tmp_path / f"{theta}.h5")
-        variables = {
-            "revolution": Variable(("revolution",), REVOLUTION, "1", "time"),
-            "radial_displacement": Variable(("revolution",), displacement, "m", "of node 1"),
-            "revolution_peak": Variable(("revolution_number",), 2 * np.asarray(amplitude), "m", "largest"),
-            "revolution_amplitude": Variable(("revolution_number",), amplitude, "m", "half range"),
-            "wear": Variable(("node",), np.zeros(8), "m", "worn depth"),
-            "spectrum_amplitude": Variable(("spectrum_order",), np.zeros(3), "m", "amplitude"),
-        }
-        about = {"casing": "2nd", "E": 2.0, "K": 0.5, "theta": theta, "f_omega": 0.19, "run_key": "key"}
-        hdf5.write(paths[-1], variables, about)
-    table, figure = history(paths)
+def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(write_run, make_result, case, draws):
+    steady, growing = make_result(), make_result(growth=0.2, complete=15)
+    straight = write_run("straight.h5", result=steady, history=True, case=replace(case, theta=0.0))
+    table, figure = history([straight, write_run("leaning.h5", result=growing, history=True)])
     axes = draws(figure).axes
-    for panel, displacement in zip(axes, (STEADY, GROWING), strict=False):
-        np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * displacement)
+    for panel, result in zip(axes, (steady, growing), strict=False):
+        np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * result.radial_displacement)
     assert axes[0].get_ylim() == axes[1].get_ylim()
-    assert axes[0].get_ylim()[1] > 1e3 * np.nanmax(np.abs(GROWING))
-    steady, growing = axes[2].lines
-    np.testing.assert_allclose(steady.get_xydata(), np.transpose([[0.5, 1.5, 2.5, 3.5], [0.1] * 4]))
-    np.testing.assert_allclose(growing.get_ydata(), 1e3 * np.array(AMPLITUDE))
+    assert axes[0].get_ylim()[1] > 1e3 * np.nanmax(np.abs(growing.radial_displacement))
+    for line, result in zip(axes[2].lines, (steady, growing), strict=True):
+        expected = np.transpose([np.arange(20) + 0.5, 1e3 * result.revolution_amplitude])
+        np.testing.assert_allclose(line.get_xydata(), expected)
     assert list(table.columns) == ["theta", "revolution", "radial_displacement"]
-    np.testing.assert_array_equal(table[table.theta == 0.15].radial_displacement, GROWING)
+    leaning = table[table.theta == 0.15].radial_displacement
+    np.testing.assert_array_equal(leaning, growing.radial_displacement)
 
 
 def test_equal_figures_give_equal_files_and_leave_the_settings_of_the_session_alone(tmp_path):
