@@ -30,12 +30,12 @@ SPEED, GRAVITY = 10.0, 10.0
 """Thrown at 10 m/s without gravity (impacting) or dropped from 5 m with it (bouncing): 10 m/s at touch."""
 
 
-def first_contact_force(gravity, tau):
+def first_force(gravity, tau):
     """F(τ) of the first contact, Pa; 0 outside of it."""
     return np.where((tau >= 0) & (tau < T), IMPEDANCE * (SPEED + gravity * tau), 0.0)
 
 
-def second_contact_force(tau):
+def second_force(tau):
     """F(τ) of the second contact where it begins at 4T, that is for v = 3gT/2 as in the benchmark, Pa.
 
     By (2) F(4T + s) = ρc (v + 4gT + gs) − 2 F(s) = ρc (4gT − v − gs): the first contact run backwards. The

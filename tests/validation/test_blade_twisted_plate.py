@@ -64,10 +64,8 @@ def test_thin_plate_has_the_published_frequencies():
     compare("FV16, Young, Barton and Leissa", found, YOUNG_BARTON_LEISSA, rtol=1.1e-2)
 
 
-@pytest.mark.parametrize(
-    ("aspect", "slenderness", "degrees"),
-    [(1, 20, 30), (1, 20, 60), (1, 5, 30), (3, 20, 30), (3, 20, 60), (3, 5, 30)],
-)
+@pytest.mark.parametrize("aspect", [1, 3])
+@pytest.mark.parametrize(("slenderness", "degrees"), [(20, 30), (20, 60), (5, 30)])
 def test_twisted_plates_vibrate_as_by_ritz(aspect, slenderness, degrees):
     points = twisted(0.1 * aspect, 0.1, 0.1 / slenderness, degrees)
     counts = (16, 16) if aspect == 1 else (8, 24)

@@ -15,16 +15,7 @@ contact) a force within 0.1 %; at the front a peak of at most 1.5 times (modifie
 
 import numpy as np
 import pytest
-from bar_solutions import (
-    DENSITY,
-    GRAVITY,
-    LENGTH,
-    SPEED,
-    WAVE_SPEED,
-    T,
-    first_contact_force,
-    second_contact_force,
-)
+from bar_solutions import DENSITY, GRAVITY, LENGTH, SPEED, WAVE_SPEED, T, first_force, second_force
 from loop_by_hand import simulation
 
 from bladerub.contact.modes import Modes
@@ -83,7 +74,7 @@ def test_rebound_without_chatter(gravity, bouncing):
     assert pushed[-1] - pushed[0] == pytest.approx(T, rel=1e-3)
     assert leaving == pytest.approx(SPEED, rel=1e-3)
     first = time < 2 * T
-    found = chatter(time[first], force[first], first_contact_force(gravity, time[first]))
+    found = chatter(time[first], force[first], first_force(gravity, time[first]))
     print("error and first peak of the force:", found)
     assert found[0] < 1e-3
     assert found[1] < 1.5
@@ -98,5 +89,5 @@ def test_second_impact_of_the_bouncing_bar(bouncing):
     assert pushed[0] == pytest.approx(4 * T, rel=1e-3)
     assert pushed[-1] == pytest.approx(5 * T, rel=1e-3)
     assert leaving == pytest.approx(SPEED, rel=1e-3)
-    exact = second_contact_force(time[second])
+    exact = second_force(time[second])
     assert chatter(time[second], force[second], exact, 4 * T)[0] < 1e-3

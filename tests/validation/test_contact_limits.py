@@ -49,7 +49,6 @@ def test_stiff_coating_becomes_the_rigid_casing(run):
 
 
 def test_no_rotation_of_the_elements_is_the_limit_of_little(run):
-    """Expected: first order in θ."""
     upright = run(1.1, 0.5, 0.31, revolutions=10)
     thetas = np.array([0.01, 0.005, 0.0025])
     runs = [run(1.1, 0.5, 0.31, theta=theta, revolutions=10) for theta in thetas]

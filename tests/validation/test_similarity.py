@@ -27,12 +27,9 @@ def similar(config):
 
 def test_a_similar_blade_rubs_alike_in_its_own_units(coarse_config, coarse_blade, monkeypatch):
     similar_config = similar(coarse_config)
-    for name, value in (
-        ("F1_HZ", coarse_blade.f1_hz),
-        ("TIP_STIFFNESS", similarity.tip_stiffness(coarse_blade)),
-        ("TRACK_AREA", similarity.track_area(coarse_blade)),
-    ):
-        monkeypatch.setattr(similarity, name, value)
+    monkeypatch.setattr(similarity, "F1_HZ", coarse_blade.f1_hz)
+    monkeypatch.setattr(similarity, "TIP_STIFFNESS", similarity.tip_stiffness(coarse_blade))
+    monkeypatch.setattr(similarity, "TRACK_AREA", similarity.track_area(coarse_blade))
     blade = build(similar_config).reduced
     scale = similarity.contact_scale(blade)
     assert scale["length"] == pytest.approx(0.37)

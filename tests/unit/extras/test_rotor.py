@@ -32,20 +32,13 @@ def test_draws_are_those_of_their_number_whatever_the_others_and_a_plan_may_have
     assert read_plan(tmp_path / "plan.yaml", study) == plan
 
 
-def made(n, **values):
-    base = {"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.346, "blades": 4}
-    base |= {"length_scatter": 5e-5, "frequency_scatter": 0.0, "coupling": 0.0, "status": "completed"}
-    base |= {"n_unbounded": 0, "row_amplitude": 1e-3, "amplification": 1.0, "longest_amplification": 0.5}
-    base |= {"longest_share": 0.3, "largest_share": 0.4, "max_wear": 1e-3, "wear_harmonic": 2}
-    base |= {"wear_harmonic_share": 0.5, "lobes": 4, "divergent": 0, "energy_residual": 1e-5}
-    return pd.DataFrame({"draw": range(n)}).assign(**base | values)
-
-
 def test_the_distribution_of_known_draws():
     values = np.random.default_rng(1).permutation(np.arange(1, 200) / 100)
     harmonic = np.where(np.arange(199) < 150, 2, 4)
     status = np.where(np.arange(199) < 20, "unbounded", "completed")
-    draws = made(199, amplification=values, wear_harmonic=harmonic, status=status, longest_share=np.nan)
+    draws = pd.DataFrame(dict.fromkeys(summary.DRAWS, 1.0), index=range(199))
+    draws = draws.assign(casing="2nd", status=status, amplification=values, wear_harmonic=harmonic)
+    draws["longest_share"] = np.nan
     found = summary.combinations(draws).iloc[0]
     assert found.amplification_median == pytest.approx(1.0)
     assert (found.amplification_p05, found.amplification_p95) == pytest.approx((0.109, 1.891))

@@ -24,21 +24,12 @@ def make(config, blade, monkeypatch, angle, tmp_path):
         if spec.rate == 7.0:
             track[15:], track[14, 100:] = np.nan, np.nan
             height = np.where(np.arange(REVOLUTIONS) > 14, np.nan, height)
-        return SweepResult(
-            status="unbounded" if spec.rate == 7.0 else "completed",
-            message="for a test",
-            angle=angle,
-            wear=np.full((8, angle.size), 2e-4),
-            radial_displacement=track.ravel(),
-            revolution_peak=height,
-            revolution_amplitude=height,
-            n_steps=1000,
-            n_contact_steps=300,
-            f_omega=f_omega,
-            time=np.arange(REVOLUTIONS) + 0.5,
-            energy=Energy(*(float(i) for i in range(1, 14))),
-            work_stiffness=0.5,
-        )
+        told = {"status": "unbounded" if spec.rate == 7.0 else "completed", "message": "for a test"}
+        told |= {"n_steps": 1000, "n_contact_steps": 300}
+        motion = {"radial_displacement": track.ravel(), "revolution_peak": height}
+        motion |= {"revolution_amplitude": height, "f_omega": f_omega, "time": np.arange(REVOLUTIONS) + 0.5}
+        worn = {"angle": angle, "wear": np.full((8, angle.size), 2e-4)}
+        return SweepResult(**told, **motion, **worn, energy=Energy(*np.arange(1.0, 14.0)), work_stiffness=0.5)
 
     monkeypatch.setattr(sweeps, "simulate_sweep", simulate_sweep)
 

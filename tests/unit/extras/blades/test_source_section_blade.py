@@ -21,29 +21,25 @@ HUB, LENGTH, CHORD, THICKNESS = 0.45, 0.2, 0.08, 0.006
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
 
 
+def in_space(x, radius, phi):
+    return np.stack(np.broadcast_arrays(x, radius * np.sin(phi), radius * np.cos(phi)))
+
+
 def twisted_plate(xi, eta, zeta):
-    """A plate of constant thickness, wrapped on cylinders and twisted: x, radius, angle, as of the blade."""
+    """A plate of constant thickness, wrapped on cylinders and twisted."""
     along, across = CHORD * (xi - 0.5), THICKNESS * (eta - 0.5)
     stagger = 0.5 + 0.6 * zeta
     radius = HUB + LENGTH * zeta
     x = along * np.cos(stagger) + across * np.sin(stagger)
     arc = -along * np.sin(stagger) + across * np.cos(stagger)
-    return np.broadcast_arrays(x, radius, arc / radius)
+    return in_space(x, radius, arc / radius)
 
 
 def lens(xi, eta, zeta):
     """A straight one with sharp edges, both sides parabolas, in the direction of the axis."""
     radius = HUB + LENGTH * zeta
     arc = THICKNESS * (eta - 0.5) * 4 * xi * (1 - xi)
-    return np.broadcast_arrays(CHORD * (xi - 0.5), radius, arc / radius)
-
-
-def in_space(solid):
-    def points(xi, eta, zeta):
-        x, radius, phi = solid(xi, eta, zeta)
-        return np.stack([x, radius * np.sin(phi), radius * np.cos(phi)])
-
-    return points
+    return in_space(CHORD * (xi - 0.5), radius, arc / radius)
 
 
 def cartesian(solid, n_sections=9, n_stations=21):
@@ -51,7 +47,7 @@ def cartesian(solid, n_sections=9, n_stations=21):
     parts = []
     for number, zeta in enumerate(np.linspace(0, 1, n_sections)):
         xi = np.linspace(0, 1, n_stations + 2 * number)
-        sides = np.vstack([in_space(solid)(xi, side, zeta) for side in (0.0, 1.0)])
+        sides = np.vstack([solid(xi, side, zeta) for side in (0.0, 1.0)])
         part = pd.DataFrame(sides.T, columns=["x1", "y1", "z1", "x2", "y2", "z2"])
         part.insert(0, "section", f"s{number}")
         parts.append(part)
@@ -60,16 +56,16 @@ def cartesian(solid, n_sections=9, n_stations=21):
 
 @pytest.fixture
 def read(tmp_path):
-    def blade(table, frame=None, counts=COUNTS, name="blade.csv", **source):
-        table.to_csv(tmp_path / name, index=False)
-        return import_blade(Source(tmp_path / name, frame or Frame(), **source), counts)
+    def blade(table, frame=None):
+        table.to_csv(tmp_path / "blade.csv", index=False)
+        return import_blade(Source(tmp_path / "blade.csv", frame or Frame()), COUNTS)
 
     return blade
 
 
 def test_a_twisted_plate_is_that_of_its_formula(read):
     imported = read(cartesian(twisted_plate))
-    direct, (_, _, zeta) = hexahedral_mesh(*lattice(COUNTS), in_space(twisted_plate))
+    direct, (_, _, zeta) = hexahedral_mesh(*lattice(COUNTS), twisted_plate)
     mesh = imported.blade.mesh
     assert imported.volume == pytest.approx(CHORD * THICKNESS * LENGTH, rel=1e-4)
     material = Material.from_config(TITANIUM)
@@ -124,7 +120,7 @@ def test_a_blade_is_built_from_its_sections_and_is_of_its_table_and_its_mesh(bla
     assert made_from(config) != first
     path.write_text(path.read_text() + "# another\n")
     assert len({first, made_from(config)}) == 2
-    imported = read(cartesian(twisted_plate), counts=COUNTS)
+    imported = read(cartesian(twisted_plate))
     built = build({"blade": config["blade"], "reduction": REDUCTION})
     np.testing.assert_array_equal(built.mesh.mesh.points, imported.blade.mesh.mesh.points)
     assert built.accuracy.relative_error.abs()[0] < 1e-3

@@ -14,14 +14,10 @@ def make_point():
     def make(E, K, Y4=1e-3, Y6=5e-4, f4=0.32, f6=0.19, theta=0.0, divergent=0.0, depth=1e-4):
         hats = [Y * np.clip(1 - np.abs(F_OMEGA - f) / 0.05, 0.01, None) for f, Y in ((f4, Y4), (f6, Y6))]
         uniform = np.arange(F_OMEGA.size) % 4 == 0
-        measures = {name: np.ones(F_OMEGA.size) for name in MEASURES} | {
-            "peak": np.max(hats, axis=0),
-            "deepest_wear": np.full(F_OMEGA.size, depth),
-            "lobes": np.full(F_OMEGA.size, 4.0),
-            "revolutions": np.full(F_OMEGA.size, 20.0),
-            "divergent": np.where(uniform, divergent, np.nan),
-            "energy_wear": np.full(F_OMEGA.size, 240.0),
-        }
+        numbers = dict.fromkeys(MEASURES, 1.0) | {"deepest_wear": depth, "lobes": 4.0}
+        numbers |= {"revolutions": 20.0, "energy_wear": 240.0}
+        measures = {name: np.full(F_OMEGA.size, number) for name, number in numbers.items()}
+        measures |= {"peak": np.max(hats, axis=0), "divergent": np.where(uniform, divergent, np.nan)}
         case = CoatingCase("2nd", E, K, theta)
         C1 = np.sqrt(1 + 3 * F_OMEGA**2)
         return ChartPoint(case, F_OMEGA, C1, np.array([4.0, 6.0]), np.stack(hats, axis=1), uniform, measures)

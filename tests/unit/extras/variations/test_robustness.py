@@ -25,19 +25,18 @@ OF_C3A = [number for number in range(64) if number % 3 and number > 5]  # sample
 @pytest.fixture
 def verdicts(tmp_path):
     """C2a holds above the middle of the unit, C2b always, C3a below it where it can be told."""
-    unit = waves.design(PLAN)[:, 0]
-    rows = [{"set": -1, "id": id_, "holds": "partly", "margin": 0.0} for id_ in ("C2a", "C3a")]
-    for number in reversed(range(64)):
-        rows.append({"set": number, "id": "C2b", "holds": "yes", "margin": np.inf})
-        high = unit[number] > 0.5
-        margin = unit[number] if high else np.nan  # it fails because nothing is found
-        rows.append({"set": number, "id": "C2a", "holds": "yes" if high else "no", "margin": margin})
-        if number in OF_C3A:
-            holds = "no" if high else "partly" if number % 2 else "yes"
-            rows.append({"set": number, "id": "C3a", "holds": holds, "margin": -unit[number]})
+    unit, number = waves.design(PLAN)[:, 0], np.arange(64)
+    high = unit > 0.5
+    always = pd.DataFrame({"set": number, "id": "C2b", "holds": "yes", "margin": np.inf})
+    margin = np.where(high, unit, np.nan)  # it fails because nothing is found
+    above = always.assign(id="C2a", holds=np.where(high, "yes", "no"), margin=margin)
+    holds = np.where(high, "no", np.where(number % 2, "partly", "yes"))
+    below = always.assign(id="C3a", holds=holds, margin=-unit).loc[OF_C3A]
+    reference = pd.DataFrame({"set": -1, "id": ["C2a", "C3a"], "holds": "partly", "margin": 0.0})
+    table = pd.concat([always, above, below, reference]).reindex(columns=job.VERDICTS)[::-1]
     paths = [tmp_path / f"{part}.csv" for part in range(3)]
-    for path, chunk in zip(paths, (rows[:50], rows[50:], []), strict=True):
-        pd.DataFrame(chunk, columns=job.VERDICTS).to_csv(path, index=False)
+    for path, chunk in zip(paths, (table[:50], table[50:], table[:0]), strict=True):
+        chunk.to_csv(path, index=False)
     return summary.collect(paths)
 
 
@@ -145,18 +144,11 @@ EMPTY = Located.of({}, UNKNOWN)
 
 @pytest.fixture
 def plan():
-    return Plan(
-        seed=5,
-        factors=(
-            Factor("unit", "Pa", {"contact.modulus_unit": (2e8, 1e9)}),
-            Factor("hub", "m", {"blade.hub_radius": (0.3, 0.6)}),
-        ),
-        parts={"peaks": Part("peaks", (EMPTY,), ("C4",))},
-        sets={"soft": {"unit": 2e8}},
-        waves=(32, 8),
-        remaining=0.01,
-        candidates=Candidates(2, 3, 0.02, Part("candidates", (EMPTY,))),
-    )
+    unit = Factor("unit", "Pa", {"contact.modulus_unit": (2e8, 1e9)})
+    hub = Factor("hub", "m", {"blade.hub_radius": (0.3, 0.6)})
+    peaks, finer = Part("peaks", (EMPTY,), ("C4",)), Part("candidates", (EMPTY,))
+    chosen = {"sets": {"soft": {"unit": 2e8}}, "candidates": Candidates(2, 3, 0.02, finer)}
+    return Plan({"peaks": peaks}, (unit, hub), seed=5, waves=(32, 8), remaining=0.01, **chosen)
 
 
 @pytest.fixture

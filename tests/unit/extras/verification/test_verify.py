@@ -37,12 +37,6 @@ class Solver:
 
 
 @pytest.fixture
-def config(config):
-    solver = config["solver"] | {"scheme": "exponential", "steps_per_element": 6, "max_time_step": 2e-6}
-    return config | {"solver": solver}
-
-
-@pytest.fixture
 def solver(monkeypatch, make_result):
     monkeypatch.setattr(verify, "simulate", Solver(make_result))
     return verify.simulate
@@ -50,6 +44,7 @@ def solver(monkeypatch, make_result):
 
 @pytest.fixture
 def verified(blade, config, case, solver):
+    config["solver"] |= {"scheme": "exponential", "steps_per_element": 6, "max_time_step": 2e-6}
     return lambda: verify.verify_run(blade, config, StudyRun(case, 0.19))
 
 
