@@ -3,7 +3,6 @@
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -51,6 +50,9 @@ class _End(NamedTuple):
     status: str
 
 
+_Longer = Callable[[PlannedRun, _End], PlannedRun | None]  # plans the longer run of one that has ended so
+
+
 class _RunFile(NamedTuple):
     """A run that is in its file."""
 
@@ -81,16 +83,15 @@ def compute_missing(
     `report` is called with a line for a log: a `RunDone` after each computed run, or a text before waiting.
     `threads` runs are computed at once, or all together by a solver that does so (`bladerub.study.solver`).
     """
-    folder = Path(folder)
-    complete = partial(_complete, config, plan.case, blade, folder, blade_digest, report, threads)
+    job, folder = _Job(config, plan, blade, blade_digest, report, threads), Path(folder)
 
     def missing_longer(run: PlannedRun, end: _End) -> PlannedRun | None:
-        longer = _longer(config, run, end)
-        return None if longer is None or _entry(folder, longer, blade_digest).fetch() else longer
+        longer = job.longer(run, end)
+        return longer if longer and not job.entry(folder, longer).fetch() else None
 
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
-        files = complete(plan.runs, missing_longer)
-        files |= complete(_not_begun(config, plan, {file: each.end for file, each in files.items()}))
+        files = job.complete(folder, plan.runs, missing_longer)
+        files |= job.complete(folder, job.not_begun({file: each.end for file, each in files.items()}))
         key = growth_key(config)
         return [_row(run, files[run.file], files.get(longer_file(run)), key) for run in plan.runs]
 
@@ -109,17 +110,16 @@ def compute_all(
     Returns the runs of the `plan` in its order, and the longer run of each or None. `report` is called with
     the lines of the solver for a log, `advance` after each run of the plan.
     """
-    each_computed = partial(_each_computed, config, plan.case, blade, blade_digest, report, threads)
+    job = _Job(config, plan, blade, blade_digest, report, threads)
     stored_runs, files = {}, {run.file for run in plan.runs}
-    for run, stored, _ in each_computed(plan.runs, partial(_longer, config)):
+    for run, stored, _ in job.computed(plan.runs, job.longer):
         stored_runs[run.file] = stored
         if run.file in files:
             advance()
     ends = {file: _end(stored) for file, stored in stored_runs.items()}
-    stored_runs |= {run.file: stored for run, stored, _ in each_computed(_not_begun(config, plan, ends))}
-    return [stored_runs[run.file] for run in plan.runs], [
-        stored_runs.get(longer_file(run)) for run in plan.runs
-    ]
+    stored_runs |= {run.file: stored for run, stored, _ in job.computed(job.not_begun(ends))}
+    longer = [stored_runs.get(longer_file(run)) for run in plan.runs]
+    return [stored_runs[run.file] for run in plan.runs], longer
 
 
 def compute(
@@ -161,96 +161,96 @@ def _row(run: PlannedRun, run_file: _RunFile, longer: _RunFile | None, growth_ke
     )
 
 
-def _longer(config: Mapping[str, Any], run: PlannedRun, end: _End) -> PlannedRun | None:
-    """Plan the longer run of one that grows and is to be followed."""
-    grows = run.follow and needs_confirmation(*end, config["analysis"]["divergence"])
-    return longer_run(config, run) if grows else None
+def _none(run: PlannedRun, end: _End) -> None:
+    """Plan no longer run."""
 
 
-def _not_begun(config: Mapping[str, Any], plan: CoatingPlan, ends: Mapping[str, _End]) -> list[PlannedRun]:
-    """Plan the longer runs that are not yet among the `ends`, by file, of a plan."""
-    longer = (_longer(config, run, ends[run.file]) for run in plan.runs)
-    return [run for run in longer if run is not None and run.file not in ends]
+@dataclass(frozen=True)
+class _Job:
+    """The job of one coating, see `compute_missing`."""
 
+    config: Mapping[str, Any]
+    plan: CoatingPlan
+    blade: ReducedBlade
+    blade_digest: str
+    report: Callable[[object], None]
+    threads: int
 
-def _entry(folder: Path, run: PlannedRun, blade_digest: str) -> Entry:
-    return Entry(folder / run.file, run.key(blade_digest), MAPPED)
+    def longer(self, run: PlannedRun, end: _End) -> PlannedRun | None:
+        """Plan the longer run of one that grows and is to be followed."""
+        grows = run.follow and needs_confirmation(*end, self.config["analysis"]["divergence"])
+        return longer_run(self.config, run) if grows else None
 
+    def not_begun(self, ends: Mapping[str, _End]) -> list[PlannedRun]:
+        """Plan the longer runs that are not yet among the `ends`, by file."""
+        longer = (self.longer(run, ends[run.file]) for run in self.plan.runs)
+        return [run for run in longer if run and run.file not in ends]
 
-def _complete(
-    config: Mapping[str, Any],
-    case: CoatingCase,
-    blade: ReducedBlade,
-    folder: Path,
-    blade_digest: str,
-    report: Callable[[object], None],
-    threads: int,
-    runs: Sequence[PlannedRun],
-    longer: Callable[[PlannedRun, _End], PlannedRun | None] = lambda run, end: None,
-) -> dict[str, _RunFile]:
-    """Compute what is missing or stale of `runs`, and their `longer` ones; return all by file."""
-    entries = {run.file: _entry(folder, run, blade_digest) for run in runs}
-    missing = {run.file: run for run in runs if not entries[run.file].fetch()}
-    origin, run_files, total = provenance(config), {}, len(missing)
-    # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
-    cost_left = sum(1 / run.spec.f_omega for run in missing.values())
-    cost_done, start = 0.0, time.monotonic()
-    computed = _each_computed(
-        config, case, blade, blade_digest, report, threads, list(missing.values()), longer
-    )
-    for number, (run, stored, seconds) in enumerate(computed, 1):
-        entry = _entry(folder, run, blade_digest)
-        entry.make_room()
-        run_files[run.file] = _run_file(entry, stored, write_run(entry.path, stored, origin))
-        if run.file in missing:
-            cost_done += 1 / run.spec.f_omega
-            cost_left -= 1 / run.spec.f_omega
-        else:
-            total += 1
-        seconds_left = (time.monotonic() - start) * max(cost_left, 0.0) / cost_done
-        report(RunDone(number, total, run.file, stored.attributes["status"], seconds, seconds_left))
-    for file in entries.keys() - run_files.keys():
-        path = entries[file].path
-        run = read_run(path, {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"})
-        run_files[file] = _run_file(entries[file], run, file_checksum(path))
-    return run_files
+    def entry(self, folder: Path, run: PlannedRun) -> Entry:
+        """Return the entry of a run in the store."""
+        return Entry(folder / run.file, run.key(self.blade_digest), MAPPED)
 
+    def complete(
+        self, folder: Path, runs: Sequence[PlannedRun], longer: _Longer = _none
+    ) -> dict[str, _RunFile]:
+        """Compute what is missing or stale of `runs`, and their `longer` ones; return all by file."""
+        entries = {run.file: self.entry(folder, run) for run in runs}
+        missing = {run.file: run for run in runs if not entries[run.file].fetch()}
+        origin, run_files, total = provenance(self.config), {}, len(missing)
+        # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
+        cost_left = sum(1 / run.spec.f_omega for run in missing.values())
+        cost_done, start = 0.0, time.monotonic()
+        computed = self.computed(list(missing.values()), longer)
+        for number, (run, stored, seconds) in enumerate(computed, 1):
+            entry = self.entry(folder, run)
+            entry.make_room()
+            run_files[run.file] = _run_file(entry, stored, write_run(entry.path, stored, origin))
+            if run.file in missing:
+                cost_done += 1 / run.spec.f_omega
+                cost_left -= 1 / run.spec.f_omega
+            else:
+                total += 1
+            seconds_left = (time.monotonic() - start) * max(cost_left, 0.0) / cost_done
+            status = stored.attributes["status"]
+            self.report(RunDone(number, total, run.file, status, seconds, seconds_left))
+        for file in entries.keys() - run_files.keys():
+            path = entries[file].path
+            run = read_run(
+                path, {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"}
+            )
+            run_files[file] = _run_file(entries[file], run, file_checksum(path))
+        return run_files
 
-def _each_computed(
-    config: Mapping[str, Any],
-    case: CoatingCase,
-    blade: ReducedBlade,
-    blade_digest: str,
-    report: Callable[[object], None],
-    threads: int,
-    runs: Sequence[PlannedRun],
-    longer: Callable[[PlannedRun, _End], PlannedRun | None] = lambda run, end: None,
-) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
-    """Yield each run as it is done, and the seconds that it took; rows last.
+    def computed(
+        self, runs: Sequence[PlannedRun], longer: _Longer = _none
+    ) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
+        """Yield each run as it is done, and the seconds that it took; rows last.
 
-    The `longer` run of a single blade comes next, if the solver goes on with runs.
-    """
-    analysis = config["analysis"]
+        The `longer` run of a single blade comes next, if the solver goes on with runs.
+        """
+        case, analysis = self.plan.case, self.config["analysis"]
 
-    def compute_row(run: PlannedRun) -> tuple[StoredRun, float]:
-        start = time.monotonic()
-        return compute(case, run, blade, run.key(blade_digest), analysis), time.monotonic() - start
+        def compute_row(run: PlannedRun) -> tuple[StoredRun, float]:
+            start = time.monotonic()
+            stored = compute(case, run, self.blade, run.key(self.blade_digest), analysis)
+            return stored, time.monotonic() - start
 
-    def revolutions(number: int, result: RunResult) -> int:
-        run = longer(single[number], _End(result.revolution_amplitude, result.status))
-        return run.spec.revolutions if run else 0
+        def revolutions(number: int, result: RunResult) -> int:
+            run = longer(single[number], _End(result.revolution_amplitude, result.status))
+            return run.spec.revolutions if run else 0
 
-    single = [run for run in runs if not run.row]
-    specs = [run.spec for run in single]
-    solved = solver_of(config).simulate_many(blade, specs, threads, report, longer=revolutions)
-    for number, result, seconds in solved:
-        run = single[number]
-        if result.revolution_amplitude.size > run.spec.revolutions:
-            run = longer_run(config, run)
-        key = run.key(blade_digest)
-        yield run, stored_run(case, run.spec, result, key, analysis, run.keep_history), seconds
-    for run, (stored, seconds) in each_done(compute_row, [run for run in runs if run.row], threads):
-        yield run, stored, seconds
+        single = [run for run in runs if not run.row]
+        specs, solver = [run.spec for run in single], solver_of(self.config)
+        solved = solver.simulate_many(self.blade, specs, self.threads, self.report, longer=revolutions)
+        for number, result, seconds in solved:
+            run = single[number]
+            if result.revolution_amplitude.size > run.spec.revolutions:
+                run = longer_run(self.config, run)
+            key = run.key(self.blade_digest)
+            yield run, stored_run(case, run.spec, result, key, analysis, run.keep_history), seconds
+        rows_of_blades = [run for run in runs if run.row]
+        for run, (stored, seconds) in each_done(compute_row, rows_of_blades, self.threads):
+            yield run, stored, seconds
 
 
 def _run_file(entry: Entry, run: StoredRun, checksum: str) -> _RunFile:
