@@ -41,7 +41,7 @@ def simulate(
         Blades that rub on one coating together, instead of the one: `Run.blades`. Default: those of the
         ``rotor`` of the study, if it has one.
     follow : bool
-        Whether a run that grows is repeated for more revolutions, as the study does: its `Run.longer`.
+        Whether a run that grows is followed by one of more revolutions, as the study does: its `Run.longer`.
     stress : bool
         Whether the largest stress of the blade is found at rotation alone, at start-up and in the last
         ``analysis.spectrum_revolutions``: `Run.stress`, and attributes of the file. It is None where the

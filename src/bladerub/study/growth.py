@@ -16,7 +16,7 @@ The paper calls a run divergent when its amplitude "continuously grows with time
 5. A growing run levels off when a parabola through the same ln A_i is surely bent downwards (the interval
    of its curvature is below 0) and its slope at the last revolution is no longer surely above ``growth``
    (the lower end of its interval is not); both with t at n − 3 degrees of freedom.
-6. A completed run that grows, levelling off or not, is repeated for ``confirmation_revolutions``, and the
+6. A completed run that grows, levelling off or not, goes on to ``confirmation_revolutions``, and the
    last ``revolutions`` of the longer run are judged in the same manner.
 7. A run is saturating when it grows but levels off, or when it grew and the longer run no longer does (it
    may also have turned to decay).
@@ -123,8 +123,8 @@ def _least_squares(time: tuple[float, ...], degree: int) -> tuple[np.ndarray, np
 
 
 def needs_confirmation(amplitude: np.ndarray, status: str, settings: Mapping[str, Any]) -> bool:
-    """Return whether a run of this amplitude and status is to be repeated for more revolutions."""
-    is_shorter = amplitude.size < settings["confirmation_revolutions"]  # which is 0 where none is repeated
+    """Return whether a run of this amplitude and status is to go on for more revolutions."""
+    is_shorter = amplitude.size < settings["confirmation_revolutions"]  # which is 0 where none goes on
     return is_shorter and status == "completed" and growth(amplitude, settings).grows
 
 
@@ -158,7 +158,7 @@ def confirmation_spec(spec: RunSpec, settings: Mapping[str, Any]) -> RunSpec:
 
 
 def confirmation_determinants(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what decides which runs are repeated, besides the runs themselves; nothing where none is."""
+    """Return what decides which runs go on, besides the runs themselves; nothing where none is."""
     if settings["confirmation_revolutions"] == 0:
         return {}
     return {**settings, "definition": growth_digest()}

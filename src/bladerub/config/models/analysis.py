@@ -34,7 +34,7 @@ class Divergence(Section):
     confidence: Number = Field(ge=0.5, le=0.9999)
     """Of the two-sided intervals of growth and curvature, usually 0.95."""
     confirmation_revolutions: int = Field(ge=0, le=10000)
-    """A run that grows is repeated for this number, and judged by the last of them; with 0 every run is
+    """A run that grows goes on to this number, and is judged by the last of them; with 0 every run is
     judged by its own. Three times the paper's 20 show the end of most growth."""
 
 
