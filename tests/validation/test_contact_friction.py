@@ -92,10 +92,8 @@ def test_both_laws_agree_where_sliding_never_turns(run, f_omega):
 
 def test_a_blade_that_vibrates_faster_than_it_turns_is_damped(run):
     """A slow rotor and a first mode deflected by 2 mm: friction turns, and takes more than if it did not."""
-    constant, coulomb = (
-        run(2.0, 0.5, 0.002, theta=0.3, law=law, revolutions=1, initial_displacement=2e-3)
-        for law in ("theta", "coulomb")
-    )
+    values = {"revolutions": 1, "initial_displacement": 2e-3}
+    constant, coulomb = (run(2.0, 0.5, 0.002, 0.3, law=law, **values) for law in ("theta", "coulomb"))
     for result in (constant, coulomb):
         assert result.slowest_sliding < 0
         assert result.energy.residual < 1e-3

@@ -31,8 +31,7 @@ def compile_for(architecture: str, variant: batch.Variant) -> tuple[int, int]:
 @pytest.mark.parametrize("vectors", [1, 2, 3, 4])
 @pytest.mark.parametrize("turns", [False, True])
 def test_the_loop_needs_no_memory_for_its_registers(vectors, turns):
-    variant = batch.Variant(vectors, turns, 2, PLASTIC, 2000, 20)
-    used, spilled = compile_for("sm_90", variant)
+    used, spilled = compile_for("sm_90", batch.Variant(vectors, turns, 2, PLASTIC, 2000, 20))
     print(f"{32 * vectors} modes, profile turns {turns}: {used} registers, {spilled} bytes spilled")
     assert used <= REGISTERS
     if vectors <= 3 and not turns:  # the study

@@ -49,18 +49,16 @@ def test_the_distribution_of_known_draws():
     assert (found.amplification_low, found.amplification_high) == pytest.approx((0.86, 1.14))
 
 
-ANGLE = np.arange(240) * (2 * np.pi / 240)
-
-
-def worn(lobe, depth=1e-4):
-    """Three lobes, one of them at `lobe`, on an even ground and a strong other harmonic."""
-    return 2e-3 + depth * np.cos(3 * (ANGLE - lobe)) + 1e-3 * np.cos(2 * ANGLE)
-
-
 @pytest.mark.parametrize("rate", [0.08, -0.08])
 def test_the_drift_of_lobes_that_turn_evenly_is_their_rate(rate):
+    angle = np.arange(240) * (2 * np.pi / 240)
+
+    def worn(lobe):
+        """Three lobes, one of them at `lobe`, on an even ground and a strong other harmonic."""
+        return 2e-3 + 1e-4 * np.cos(3 * (angle - lobe)) + 1e-3 * np.cos(2 * angle)
+
     revolution = np.arange(1, 41)  # turns by more than the distance of two lobes
-    parts = np.array([pattern.component(ANGLE, worn(0.3 + rate * at), 3) for at in revolution])
+    parts = np.array([pattern.component(angle, worn(0.3 + rate * at), 3) for at in revolution])
     assert np.abs(parts) == pytest.approx(1e-4)
     lobe = pattern.lobe_angle(parts, 3)
     assert np.diff(lobe) == pytest.approx(rate)

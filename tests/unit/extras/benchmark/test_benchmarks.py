@@ -87,11 +87,10 @@ SMALL_FOR_GPU = SMALL | {
 }
 
 
-def measured(status="completed", n_steps=10, peak=(1.0, 2.0)):
-    return gpu.Measures(status, n_steps, 5, np.array(peak), 1e-5)
-
-
 def test_differences_are_counted_and_the_largest_revolution_of_a_run_taken():
+    def measured(status="completed", n_steps=10, peak=(1.0, 2.0)):
+        return gpu.Measures(status, n_steps, 5, np.array(peak), 1e-5)
+
     same = (measured(), measured())
     other = (measured(peak=(1.0, 2.02)), measured(status="unbounded", n_steps=9, peak=(1.01, 2.0)))
     told = gpu.agreement([same] * 3 + [other])

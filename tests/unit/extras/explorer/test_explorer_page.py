@@ -18,8 +18,6 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import write_map
 
-DIVERGENCE = {"growth": 0.01, "revolutions": 10, "confidence": 0.95, "confirmation_revolutions": 30}
-
 
 @pytest.fixture
 def coating(make_map, case):
@@ -38,7 +36,8 @@ def coating(make_map, case):
 
 @pytest.fixture
 def verdicts(coating):
-    return divergence.table({"analysis": {"divergence": DIVERGENCE}}, [coating])
+    growth = {"growth": 0.01, "revolutions": 10, "confidence": 0.95, "confirmation_revolutions": 30}
+    return divergence.table({"analysis": {"divergence": growth}}, [coating])
 
 
 @pytest.fixture
@@ -90,13 +89,12 @@ SETTINGS = {"max_frequency": 2.5, "amplitude_range": [2e-6, 3e-3], "growth_revol
 SETTINGS |= {"spectrum_revolutions": 10, "modulus_unit": 6e8, "doubts": ["eq. (2) is up to 3.9 % off"]}
 
 
-def scripts(page, kind):
-    return re.findall(rf'<script type="{kind}"[^>]*>(.*?)</script>', page, re.DOTALL)
-
-
 def test_the_page_holds_every_coating_runs_only_its_own_scripts_and_a_hostile_name_adds_no_markup(
     coating, verdicts, runs, tmp_path
 ):
+    def scripts(page, kind):
+        return re.findall(rf'<script type="{kind}"[^>]*>(.*?)</script>', page, re.DOTALL)
+
     def page(*coatings):
         maps, manifests = ([tmp_path / f"{at}{of}" for at in range(len(coatings))] for of in (".h5", ".tsv"))
         for path, manifest, each in zip(maps, manifests, coatings, strict=True):

@@ -38,13 +38,12 @@ def test_a_curve_for_each_rate_in_si_by_the_units_given_and_bad_tables_are_named
 
 
 TRUTH = {"E": 900e6, "K": 60e6, "yield_stress": 8e6, "overstress": 3e6, "exponent": 0.2}
-NOISE = 0.2e6
 
 
 def curves(rates, seed=None, highest=0.06, n=30, **changed):
     """Draw curves of the parameters `TRUTH`, with noise if there is a seed."""
     values = [*(TRUTH | changed).values()][: 3 if len(rates) == 1 else 5]
-    noise = np.random.default_rng(seed).normal(0, NOISE if seed is not None else 0, (len(rates), n))
+    noise = np.random.default_rng(seed).normal(0, 0.2e6 if seed is not None else 0, (len(rates), n))
     strain = np.linspace(highest / n, highest, n)
     bare = zip((Curve(rate, strain, strain) for rate in rates), noise, strict=True)
     return [curve._replace(stress=stress(values, curve) + error) for curve, error in bare]

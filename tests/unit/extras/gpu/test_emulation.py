@@ -226,14 +226,12 @@ def test_a_formula_gives_what_it_gives_in_python(name, tmp_path):
     np.testing.assert_allclose(found.T, np.array(expected), rtol=1e-13, atol=1e-15)
 
 
-OWN_LIMIT = "def elastic_limit(element, wear):\n    return wear\n"  # return_mapping has another
-
-
 def test_what_a_gpu_is_not_given_is_named():
+    own_limit = "def elastic_limit(element, wear):\n    return wear\n"  # return_mapping has another
     for more, body, named in (
         ("", "element.elastic * abs(depth)", "elastic_force: abs"),
         ("", "unheard_of * depth", "elastic_force: unheard_of"),
-        (OWN_LIMIT, "elastic_limit(element, depth)", "elastic_limit: two functions of this name"),
+        (own_limit, "elastic_limit(element, depth)", "elastic_limit: two functions of this name"),
     ):
         module, force = ModuleType("law"), f"def elastic_force(element, depth):\n    return {body}\n"
         source = f"from bladerub.contact.law import *\n{more}{force}"

@@ -57,43 +57,37 @@ def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, blade, draws
     draws(chart_stiffening(peaks, stiffening.table(peaks, blade), 6e8))
 
 
-COATING = Coating(2.0, 0.5, 0.0, 0.0, modulus_unit=6e8, thickness=5e-3, n_elements=2000)
-
-
-def cycle(stress):
-    strain = np.array([0.0, 0.01, 0.02])
-    return LoadingCycle(COATING, strain, np.asarray(stress), np.zeros(3))
-
-
 def test_each_law_has_a_panel_with_its_cycles_in_megapascals(draws):
+    coating = Coating(2.0, 0.5, 0.0, 0.0, modulus_unit=6e8, thickness=5e-3, n_elements=2000)
+
+    def cycle(stress):
+        return LoadingCycle(coating, np.array([0.0, 0.01, 0.02]), np.asarray(stress), np.zeros(3))
+
     two = {"slow": cycle([0, 0, 0.01]), "fast": cycle([0, 0.01, 0.02])}
     slow, fast = draws(law_cycles({"one": {"soft": cycle([0, 0.01, 0.01])}, "two": two})).axes[1].lines
     np.testing.assert_allclose(fast.get_xydata(), [[0, 0], [1, 6], [2, 12]])
     np.testing.assert_allclose(slow.get_ydata(), [0, 0, 6])
 
 
-CASE, SPEED = CoatingCase("2nd", 1.1, 0.5, 0.0), np.linspace(0.14, 0.4, 30)
-
-
-def sweep(direction, rate, status="completed"):
-    amplitude = 1e-3 * np.exp(-(((SPEED - 0.3) / 0.02) ** 2))
-    if status == "unbounded":
-        amplitude[20:] = np.nan
-    speed = SPEED if direction == "up" else SPEED[::-1]
-    none = np.empty((0, 3))
-    spectra = none[:, 0], none[:, 0], SPEED[:3], none
-    return SpeedSweep(CASE, direction, rate, status, 1e-5, 1e-4, speed, amplitude, *spectra)
-
-
 def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws):
+    case, speeds = CoatingCase("2nd", 1.1, 0.5, 0.0), np.linspace(0.14, 0.4, 30)
+
+    def sweep(direction, rate, status="completed"):
+        amplitude = 1e-3 * np.exp(-(((speeds - 0.3) / 0.02) ** 2))
+        if status == "unbounded":
+            amplitude[20:] = np.nan
+        speed, none = speeds if direction == "up" else speeds[::-1], np.empty((0, 3))
+        spectra = none[:, 0], none[:, 0], speeds[:3], none
+        return SpeedSweep(case, direction, rate, status, 1e-5, 1e-4, speed, amplitude, *spectra)
+
     amplitude = np.array([[1e-4, 2e-4], [1e-3, 2e-3], [1e-4, 9e-3]])
     constant = SimpleNamespace(f_omega=np.array([0.2, 0.3, 0.4]), revolution_amplitude=amplitude)
     constant.status = np.array(["completed", "completed", "unbounded"])
     drawn = [sweep("up", 0.05), sweep("down", 0.05), sweep("up", 0.2, "unbounded")]
-    up, down = draws(sweeps(drawn, {CASE: constant})).axes
+    up, down = draws(sweeps(drawn, {case: constant})).axes
     np.testing.assert_allclose(up.lines[0].get_ydata(), [0.2, 2.0, 9.0])
-    np.testing.assert_allclose(up.lines[3].get_xydata(), [[SPEED[19], up.lines[2].get_ydata()[19]]])
-    np.testing.assert_allclose(down.lines[1].get_xdata(), SPEED[::-1])
+    np.testing.assert_allclose(up.lines[3].get_xydata(), [[speeds[19], up.lines[2].get_ydata()[19]]])
+    np.testing.assert_allclose(down.lines[1].get_xdata(), speeds[::-1])
     assert up.get_ylim()[1] == pytest.approx(1.08 * 2.0)  # the run that left all bounds is out of it
 
 

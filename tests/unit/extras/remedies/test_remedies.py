@@ -5,7 +5,6 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import contextmanager
 from types import SimpleNamespace
 
 import pytest
@@ -36,39 +35,39 @@ def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(workflow_with
     assert (workflow.scheduler.job_rate_limiter is not None) == kept
 
 
-@contextmanager
-def handled_by(sign, handler):
-    before = signal.signal(sign, handler)
-    try:
-        yield
-    finally:
-        signal.signal(sign, before)
+@pytest.fixture
+def handle():
+    """Set handlers of signals for this test alone."""
+    before = {sign: signal.getsignal(sign) for sign in (signal.SIGTERM, signal.SIGINT)}
+    yield signal.signal
+    for sign, handler in before.items():
+        signal.signal(sign, handler)
 
 
-def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds(workflow_with):
+def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds(workflow_with, handle):
     lock, handled = threading.Lock(), threading.Event()
 
     def handler(*_):
         if lock.acquire(timeout=2):  # Snakemake's waits for ever
             handled.set()
 
-    with handled_by(signal.SIGTERM, handler):
-        remedies.start(workflow_with(limiter=None), [])
-        with lock:
-            os.kill(os.getpid(), signal.SIGTERM)
-        assert handled.wait(3)
+    handle(signal.SIGTERM, handler)
+    remedies.start(workflow_with(limiter=None), [])
+    with lock:
+        os.kill(os.getpid(), signal.SIGTERM)
+    assert handled.wait(3)
 
 
-def test_two_interrupts_in_a_row_are_one(monkeypatch):
+def test_two_interrupts_in_a_row_are_one(handle, monkeypatch):
     clock = iter([100.0, 100.3, 200.0])
     monkeypatch.setattr(remedies.time, "monotonic", lambda: next(clock))
-    with handled_by(signal.SIGINT, signal.default_int_handler):
-        remedies.begin()
-        with pytest.raises(KeyboardInterrupt):
-            signal.raise_signal(signal.SIGINT)
+    handle(signal.SIGINT, signal.default_int_handler)
+    remedies.begin()
+    with pytest.raises(KeyboardInterrupt):
         signal.raise_signal(signal.SIGINT)
-        with pytest.raises(KeyboardInterrupt):
-            signal.raise_signal(signal.SIGINT)
+    signal.raise_signal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
 
 
 def test_an_interrupt_before_the_first_line_of_a_script_prints_nothing(tmp_path):

@@ -167,21 +167,19 @@ def test_numbers_agree_within_twice_the_uncertainty_of_both(tmp_path):
         assert found.allowed[0] == pytest.approx(2 * math.hypot(0.5, uncertainty), rel=1e-3)
 
 
-RUNS = [StudyRun(CoatingCase("2nd", 2.0, 0.5, 0.15), 0.1 + 0.01 * number) for number in range(12)]
-
-
-def drawn(run):
-    """A run that is beyond one percent, and sensitive, above 0.2."""
-    if run.f_omega <= 0.2:
-        return run_with(run.f_omega, 0.001, run=run, speedup=200.0)
-    spread = Differences(0.015, 0.0, 0.0)
-    return run_with(run.f_omega, 0.02, 0.001, 0.002, run=run, spread=spread, speedup=None)
-
-
 def test_a_row_holds_errors_what_starts_change_and_cost(monkeypatch):
+    def drawn(run):
+        """A run that is beyond one percent, and sensitive, above 0.2."""
+        if run.f_omega <= 0.2:
+            return run_with(run.f_omega, 0.001, run=run, speedup=200.0)
+        spread = Differences(0.015, 0.0, 0.0)
+        return run_with(run.f_omega, 0.02, 0.001, 0.002, run=run, spread=spread, speedup=None)
+
+    case = CoatingCase("2nd", 2.0, 0.5, 0.15)
+    runs = [StudyRun(case, 0.1 + 0.01 * number) for number in range(12)]
     monkeypatch.setattr(accuracy, "verify_runs", lambda blade, config, runs: map(drawn, runs))
     lines = []
-    table = accuracy.table(None, {}, {"all": RUNS, "important": RUNS[-2:]}, lines.append)
+    table = accuracy.table(None, {}, {"all": runs, "important": runs[-2:]}, lines.append)
     assert len(lines) == len(table) == 3 * 12 + 2  # drawn thrice
     row = table[table.f_omega > 0.2].iloc[0]
     assert (row.E, row.K, row.theta, row.law, row.status) == (2.0, 0.5, 0.15, "theta", "completed")
