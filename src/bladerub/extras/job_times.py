@@ -6,7 +6,7 @@ seven speeds on 17 coatings and the rigid casing, as were `bladerub.workflow.cor
 `ON_RIGID_CASING`."""
 
 GROWING = 0.09
-"""Share of the runs that grow, and are made again with the longer length (the study's 63 coatings)."""
+"""Share of the runs that grow, and go on to the longer length (the study's 63 coatings)."""
 
 SECONDS_PER_JOB = 5
 """Of one core, to start Snakemake and the job and to draw, collect or analyse; rounded up."""

@@ -81,16 +81,17 @@ def forecast(
         return runs
     costs, n_blades = costs_of(config), config.get("rotor", {"blades": 1})["blades"]
     simulated = seconds = 0.0
+    left = {name: 1 - count["done"] / count["planned"] for name, count in counts.items()}
     for rule, coating in jobs:
         seconds += SECONDS_PER_JOB + SECONDS_AT_FIRST.get(rule, 0)
         if rule == "coating" and coating in counts:
-            of_coating = counts[coating]
-            share = 1 - of_coating["done"] / of_coating["planned"]
-            simulated += share * n_blades * costs.runs[coating]
-        elif rule in costs.further:
-            simulated += costs.further[rule].get(coating, 0)
-    longer = GROWING * config["analysis"]["divergence"]["confirmation_revolutions"]
-    seconds += simulated * (config["solver"]["revolutions"] + longer) * SECONDS_PER_REVOLUTION
+            simulated += left[coating] * n_blades * costs.runs[coating]
+        elif rule in costs.further:  # of a coating whose own runs are done, what was listed once is too
+            is_listed = (results / "runs" / str(coating) / rule / "manifest.tsv").exists()
+            simulated += 0 if is_listed and not left[coating] else costs.further[rule].get(coating, 0)
+    revolutions = config["solver"]["revolutions"]
+    longer = max(config["analysis"]["divergence"]["confirmation_revolutions"] - revolutions, 0)
+    seconds += simulated * (revolutions + GROWING * longer) * SECONDS_PER_REVOLUTION
     minutes = max(seconds / 60 / (cores or 1), 1)
     machine = f"on {cores} cores" if cores and cores > 1 else "of one core"
     return f"{runs}; {len(jobs):,} jobs, about {minutes:.0f} min {machine}"

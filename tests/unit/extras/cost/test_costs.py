@@ -44,19 +44,27 @@ def test_a_row_a_job_and_bars_in_minutes_and_megabytes(tmp_path):
 JOBS = [(rule, f"2nd_E{E}_K0.5_theta0") for E in (1, 2) for rule in ("coating", "map", "ensemble")]
 
 
-def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatch):
+def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatch, tmp_path):
     """Of a study of which forty of a hundred runs of each coating are done."""
     counts = dict.fromkeys(inventory.COUNTS, 0) | {"planned": 100, "done": 40}
     monkeypatch.setattr(inventory, "take", lambda *_: (counts, []))
     monkeypatch.setattr(inventory, "current_blade", lambda *_: (None, None))
     study = config | {"coatings": [{"casing": "2nd", "E": [1, 2], "K": [0.5], "theta": [0.0]}]}
-    study["solver"]["revolutions"] = 3600
+    study["solver"]["revolutions"], study["results"] = 3600, str(tmp_path)
+    study["analysis"]["divergence"]["confirmation_revolutions"] = 7200
     jobs = [("blade", None), *JOBS, ("fig11_Y4", None)]
     costs = costs_of(study)
     runs = 0.6 * sum(costs.runs.values()) + sum(costs.further["ensemble"].values())
-    revolutions = 3600 + GROWING * study["analysis"]["divergence"]["confirmation_revolutions"]
+    revolutions = 3600 + GROWING * 3600
     seconds = runs * revolutions * SECONDS_PER_REVOLUTION + 8 * SECONDS_PER_JOB + SECONDS_AT_FIRST["blade"]
-    numbers = re.findall(r"\d+", forecast(study, jobs).replace(",", ""))
+    line = forecast(study, jobs)
+    numbers = re.findall(r"\d+", line.replace(",", ""))
     assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
     assert costs.further["ensemble"][JOBS[0][1]] > 0
     assert "120 of 200 runs of the study are missing, and not" in forecast(study, [("chart_column", None)])
+    members = tmp_path / "runs" / JOBS[0][1] / "ensemble" / "manifest.tsv"
+    members.parent.mkdir(parents=True)
+    members.touch()
+    assert forecast(study, jobs) == line
+    counts["done"] = 100
+    assert "2 jobs, about 1 min" in forecast(study, [JOBS[0], JOBS[2]])
