@@ -112,8 +112,8 @@ def test_what_is_lost_or_damaged_of_an_ensemble_costs_its_members_alone(copied_s
 def test_one_random_bit_in_a_file_of_any_kind_is_found_and_repaired(copied_study, tiny, results):
     before, draw = contents(results), random.Random(8)
     tables = {path: path.read_bytes() for path in (results / "tables").iterdir()}
-    kinds = ["runs/*/[0-9]*.h5", "runs/*/manifest.tsv", "maps/*.h5", "blade/*.h5"]
-    kinds += 2 * ["tables/*.csv", "tables/*.json"]
+    of_tables = ("tables/*.csv", "tables/*.json")
+    kinds = ["runs/*/[0-9]*.h5", "runs/*/manifest.tsv", "maps/*.h5", *of_tables, "blade/*.h5", *of_tables]
     hit = {draw.choice(sorted(results.glob(kind))) for kind in kinds}
     for path in hit:
         flip_a_bit(path, draw)

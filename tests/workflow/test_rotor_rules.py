@@ -7,8 +7,8 @@ from bladerub.io import tables
 from bladerub.study.store import read_run
 
 COATING = {"casing": "2nd", "E": 2, "K": 0.5, "theta": 0.0}
-ROWS = {"blades": [3], "length_scatter": [0, 5.0e-5], "frequency_scatter": [0.01], "coupling": [0.01]}
-GROUP = COATING | ROWS | {"f_omega": [0.19], "draws": 3}
+SCATTER = {"length_scatter": [0, 5.0e-5], "frequency_scatter": [0.01], "coupling": [0.01]}
+GROUP = COATING | {"f_omega": [0.19], "blades": [3]} | SCATTER | {"draws": 3}
 SWEEP = GROUP | {"f_omega": [0.19, 0.25], "length_scatter": [5.0e-5], "draws": 2}
 PATTERN = GROUP | {"length_scatter": [5.0e-5], "draws": 2}
 PLAN = {
