@@ -38,8 +38,8 @@ function verdictInWords(coating, speed) {
   const kind = verdict(coating.runs, speed);
   const words = element("span", { class: `verdict ${kind}` }, `${VERDICT_SIGNS[kind]} ${VERDICTS[kind].words}`);
   const longer = wasRepeated(coating, speed) ? " of the longer run" : "";
-  const { draws, divergent_draws } = coating.runs;
-  const starts = draws[speed] === null ? "" : `; ${digits(draws[speed] * divergent_draws[speed])} of ${draws[speed]} starts diverge`;
+  const { draws, divergent_draws: share } = coating.runs;
+  const starts = share[speed] === null ? "" : `; ${digits(draws[speed] * share[speed])} of ${draws[speed]} starts diverge`;
   if (kind === "unbounded") return [words, ` in revolution ${coating.runs.revolutions[speed]}${longer}${starts}`];
   return [words, `${wasRepeated(coating, speed) ? ` within ${coating.runs.revolutions[speed]} revolutions (longer run)` : ""}${starts}`];
 }
