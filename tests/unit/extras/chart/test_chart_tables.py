@@ -87,6 +87,7 @@ def test_a_speed_that_follows_the_modulus_does_not_scatter_and_inclined_bars_nee
     peaks["f_peak"] = 0.3 + 0.05 * np.tanh(peaks.E_T)
     peaks["f_crossing"] = np.where((peaks.order == 6) & (peaks.E == 2), 0.4, 0.3)
     found = stiffening.table(peaks, leaning)
+    assert list(found.below_crossing) == [0, 3]
     of_four = found.set_index("order").loc[4]
     assert of_four.rank_correlation_E_T == pytest.approx(1)
     assert of_four.scatter_E_T == pytest.approx(0, abs=1e-12)
