@@ -1,8 +1,6 @@
 """Put each fault of named.toml into a copy of the repository, and see whether its tests notice it.
 
-    python tests/mutation/run.py [PART OF A NAME...]
-
-Exit code 0 if all are noticed.
+python tests/mutation/run.py [PART OF A NAME...]    # exit code 0 if all are noticed
 """
 
 import os
@@ -48,8 +46,7 @@ def main() -> int:
     missed = 0
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch) / "copy"
-        hidden = shutil.ignore_patterns(".*", "results", "__pycache__")
-        shutil.copytree(ROOT, folder, ignore=hidden)
+        shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(".*", "results", "__pycache__"))
         for fault in chosen:
             noticed = is_noticed(folder, fault)
             missed += not noticed

@@ -13,11 +13,10 @@ from bladerub.io import lock
 # the tests start hundreds of processes, and translating the package would be a fifth of the time of each
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
-
 FOLDER = Path(__file__).parent
 AT_WORK_MEANWHILE = (
     *("test_laws.py", "test_contact_nodes.py", "test_contact_laws.py", "test_row.py", "test_emulation.py"),
-    *("test_blade_rotor37.py", "test_impact.py", "test_blade_default.py"),
+    *("test_blade_rotor37.py", "test_blade_default.py"),
 )
 """Files that take long and need no study."""
 

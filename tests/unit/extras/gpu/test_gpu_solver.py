@@ -27,8 +27,7 @@ def on_gpu(tmp_path):
 def test_without_one_no_blade_is_built(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("bladerub.extras.gpu.device.connect", Mock(side_effect=NoGpuError("no GPU")))
     monkeypatch.setattr("bladerub.cli.inputs.study_folder", lambda: tmp_path)
-    run = "run --device gpu --casing 2nd --E 2 --K 0.5 --f 0.19"
-    assert main(run.split()) == 2
+    assert main(["run", "--device", "gpu", "--casing", "2nd", "--E", "2", "--K", "0.5", "--f", "0.19"]) == 2
     assert capsys.readouterr().err == "bladerub run: no GPU\n"
     assert not list(tmp_path.iterdir())
 
