@@ -31,8 +31,14 @@ def shown(path, name, category, title=None):
     The caption of a study is `report/<name>.rst` in its folder; it numbers categories of its own.
     """
     caption = CAPTIONS.get(name) or workflow.source_path(f"../report/{name}.rst")
-    with open(caption, encoding="utf-8") as lines:
-        title = title or next(lines).strip()
+    try:
+        with open(caption, encoding="utf-8") as lines:
+            title = title or next(lines).strip()
+    except FileNotFoundError as error:
+        where = f"studies/<its study>/report/{name}.rst, or src/report/{name}.rst for the core"
+        raise WorkflowError(
+            f"figure {name}: has no caption; write {where}, the title first"
+        ) from error
     return report(
         path,
         caption=caption,

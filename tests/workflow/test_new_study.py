@@ -1,10 +1,12 @@
 """A study of one's own, as `bladerub new` lays it out: the real workflow, taken in as a module."""
 
 import json
+import re
 
 import yaml
 from workspace import ROOT, Workspace
 
+from bladerub.io.tables import read
 from bladerub.study.store import read_run
 
 OWN_RULE = """
@@ -30,6 +32,18 @@ def test_it_computes_its_own_config_and_takes_rules_of_ones_own(tmp_path, study,
     counts = Workspace(own.folder / "config", study.sources).said("bladerub", "status", "--json")
     assert json.loads(counts)["coatings"]["2nd_E1.1_K0.5_theta0"]["missing"] == 0
     assert "histograms" in own.said("snakemake", "-n", "--quiet", "rules", "--configfile", "small.yaml")
+
+
+def test_the_study_of_the_guide_for_contributors_is_drawn(copied_study, tiny):
+    guide = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    for path, text in re.findall(r"`(studies/deepest/\S+)`:\n\n```\w+\n(.*?)```", guide, re.S):
+        (copied_study.folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (copied_study.folder / path).write_text(text, encoding="utf-8")
+    copied_study.sources = copied_study.folder / "src"  # studies are those beside them
+    copied_study.build(tiny, "deepest")
+    table = read(copied_study.results / "tables" / "deepest.csv", ["f_omega", "max_wear"])
+    assert (table.max_wear > 0).any()
+    assert (copied_study.results / "figures" / "deepest.pdf").exists()
 
 
 MODULE = """

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -118,8 +119,16 @@ def progress_bar(total: int, unit: str, items: Iterable | None = None, quiet: bo
 
 
 def show(options: argparse.Namespace, figures: dict[str, Any], in_words: Callable[[dict], str]) -> None:
-    """Print the figures, as JSON if that is asked for."""
-    print(json.dumps(figures, indent=2, allow_nan=False) if options.json else in_words(figures))
+    """Print the figures, as JSON if that is asked for; what is not finite is null there."""
+    print(json.dumps(_finite(figures), indent=2, allow_nan=False) if options.json else in_words(figures))
+
+
+def _finite(figures: Any) -> Any:
+    if isinstance(figures, dict):
+        return {name: _finite(value) for name, value in figures.items()}
+    if isinstance(figures, list | tuple):
+        return [_finite(value) for value in figures]
+    return None if isinstance(figures, float) and not math.isfinite(figures) else figures
 
 
 def row(width: int, name: str, *cells: str) -> str:

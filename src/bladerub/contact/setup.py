@@ -7,6 +7,7 @@ from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
+from numba.core.errors import NumbaError
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing
@@ -20,10 +21,17 @@ from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compli
 from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec
 from bladerub.contact.steps import own_steps, steps_per_element, with_steps
 from bladerub.contact.tip import edge
+from bladerub.io.errors import BadInput
 from bladerub.numerics.lanes import lanes_for
+from bladerub.numerics.machine_code import innermost
 from bladerub.numerics.memory import aligned
 
 _NEVER = 1.0  # gap of a lane without a node, m: nothing moves so far
+
+_WRITTEN_IN = (
+    "its functions are marked elementwise, and written with + - * / > <= and where, maximum, minimum, "
+    "absolute and sqrt of bladerub.numerics.vectors"
+)
 
 SEARCH_RANGE = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""
@@ -74,7 +82,7 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
     """Compile the time loop, so that its machine code is on disk before runs start.
 
     That for profiles that turn is another one, that for a tip with more than eight nodes, and that for
-    another law of the elements.
+    another law of the elements. Raises `BadInput` if that law cannot be compiled.
     """
     modes = Modes(np.ones(1), np.zeros(((3 if tip_turns else 2) * n_nodes, 1)), n_nodes)
     lanes = lanes_for(n_nodes)
@@ -89,7 +97,12 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
     flight = kernel("free_flight").free_flight(rule, 1, 0.0, 0.0)
     state = kernel("records").at_rest(1, 8, _kept_by(module_of(law)))
     modal, simulation = kernel("modal").pack(rule), kernel("loop").Simulation
-    simulation(modal, flight, aligned(stator), aligned(tip), state, 1).advance(np.zeros(8))
+    try:
+        simulation(modal, flight, aligned(stator), aligned(tip), state, 1).advance(np.zeros(8))
+    except NumbaError as error:
+        if law == PLASTIC:
+            raise
+        raise BadInput(f"law {law.label}: cannot be compiled ({innermost(error)}); {_WRITTEN_IN}") from error
 
 
 def _kernel(n_nodes: int, law: ElementLaw, turns: bool) -> Callable[[str], ModuleType]:

@@ -4,13 +4,15 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import Annotated, Any
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, field_validator, model_validator
+from pydantic_core import PydanticCustomError
 
 from bladerub.config import units
 from bladerub.config.fields import Form, Omitted, Section, Unit, disagreement
 from bladerub.config.keys import Key
 from bladerub.config.quantities import unknown
 from bladerub.extras.law_reading import parameters_in
+from bladerub.io.folders import study_folder
 
 
 class Law(Section):
@@ -28,14 +30,22 @@ class Law(Section):
     file: Annotated[Omitted[str], Form("the path of a Python file that ends in .py")] = Field(
         None, pattern=r"^.+\.py$"
     )
-    """Instead of the name: a law of your own, which `bladerub check-law` checks. It is run, so read a file of
-    somebody else first."""
+    """Instead of the name: a law of your own, which `bladerub check-law` checks; its path is from the folder
+    of the study. It is run, so read a file of somebody else first."""
 
     @model_validator(mode="after")
     def _has_one_law(self) -> "Law":
         if self.name is not None and self.file is not None:
             raise disagreement("file", "must be without the name of a law")
         return self
+
+    @field_validator("file")
+    @classmethod
+    def _is_there(cls, file: str | None) -> str | None:
+        if file is not None and not (path := study_folder() / file).is_file():
+            text = f"there is no such file ({path}); a path is from the folder of the study"
+            raise PydanticCustomError("kind", text.replace("{", "{{"))
+        return file
 
     @classmethod
     def further_keys(cls, values: Mapping[str, Any]) -> dict[str, Key]:

@@ -1,8 +1,10 @@
 import io
 import json
+import math
 import re
 import subprocess
 import sys
+from argparse import Namespace
 
 import numpy as np
 import pandas as pd
@@ -10,7 +12,7 @@ import pytest
 
 from bladerub.api.map import solve_all
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.cli import main
+from bladerub.cli import inputs, main
 from bladerub.extras.ensembles import interface
 from bladerub.io.hdf5 import read_attributes
 from bladerub.study.store import read_run
@@ -120,6 +122,11 @@ def test_run_with_another_law_says_so(small, blade_file, folder, command):
     stored = read_run(path)
     assert stored.data["temperature_rise"].max() == pytest.approx(warmest, rel=1e-2)
     assert stored.attributes["element_law"].startswith("thermal (heat_capacity 2e+06, conductivity 5, ")
+
+
+def test_what_is_not_finite_is_null_in_json(capsys):
+    inputs.show(Namespace(json=True), {"E": math.inf, "rows": [1.0, math.nan]}, str)
+    assert json.loads(capsys.readouterr().out) == {"E": None, "rows": [1.0, None]}
 
 
 def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, command):

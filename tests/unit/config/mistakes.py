@@ -23,6 +23,7 @@ ROWS = [
     ("contact:\n  damping_ratio: 1.0\n", 2, "contact.damping_ratio", "of at least 0 and below 1"),
     ("contact: {layer_thickness: 6 MPa}\n", 1, "contact.layer_thickness", "pressure; must be a length: mm"),
     ("contact:\n  elements: 020\n", 2, "contact.elements", "YAML reads this as 16, as octal"),
+    ("contact: {law: {file: no.py}}\n", 1, "contact.law.file", "no such file", False),
     ("contact: {law: {name: plastik}}\n", 1, "contact.law.name", "must be one of plastic, brittle", False),
     (f"casings:\n  3rd: {{{CASING}}}\n", 2, "casings.3rd.interference", "missing, must be a", False),
     (f"casings:\n  my casing: {{{WHOLE}}}\n", 2, 'casings["my casing"]', "at most 40 letters and digits"),

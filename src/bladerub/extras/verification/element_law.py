@@ -23,6 +23,7 @@ from bladerub.contact.laws import element_parameters, module_of
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import Coating, ElementLaw
 from bladerub.extras.user_code import bounded
+from bladerub.io.errors import BadInput
 
 TIME_STEPS = (1e-7, 1e-6, 1e-5)
 """Of the histories, s: those of runs, and ten times longer and shorter."""
@@ -79,7 +80,8 @@ def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> La
             compile_kernel(law=law)
     except Exception as error:  # whatever the law, or the compiler of it, may raise
         first_line = str(error).strip().partition("\n")[0]
-        log.add("it cannot be run", f"{type(error).__name__}: {first_line}")
+        kind = "" if isinstance(error, BadInput) else f"{type(error).__name__}: "
+        log.add("it cannot be run", f"{kind}{first_line}")
     return LawReport(histories, tuple(LawProblem(*problem) for problem in log.problems.items()))
 
 

@@ -3,11 +3,13 @@ from pathlib import Path
 import pytest
 
 from bladerub.contact import law
+from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.verification import element_law
 from bladerub.extras.verification.element_law import HISTORIES, TIME_STEPS, check_law
+from bladerub.io.errors import BadInput
 
 PAPER = Path(law.__file__).read_text(encoding="utf-8")
 DENSIFYING = Path(__file__).parents[4] / "docs" / "laws" / "densifying.py"
@@ -44,6 +46,13 @@ def test_a_law_that_is_right_has_no_problem_and_is_compiled(law, coating, compil
     assert report.problems == ()
     assert report.histories == HISTORIES * len(TIME_STEPS)
     assert compiled == [law]
+
+
+def test_what_the_compiler_refuses_is_named_with_its_line():
+    source = RIGHT[-1].source.replace("(slope + sqrt(", "(slope + 0.0 * np.log1p(slope) + sqrt(")
+    line = source[: source.index("log1p")].count("\n") + 1
+    with pytest.raises(BadInput, match=rf"law own.*can't resolve ufunc log1p.*line {line}\)"):
+        compile_kernel(law=ElementLaw("own", RIGHT[-1].parameters, source))
 
 
 def test_what_is_wrong_with_a_law_is_told(compiled, monkeypatch):

@@ -1,6 +1,6 @@
 """Put each fault of named.toml into a copy of the repository, and see whether its tests notice it.
 
-python tests/mutation/run.py [PART OF A NAME...]    # exit code 0 if all are noticed
+python .ci/mutation/run.py [PART OF A NAME...]    # exit code 0 if all are noticed
 """
 
 import os
