@@ -48,6 +48,7 @@ def test_a_law_that_is_right_has_no_problem_and_is_compiled(law, coating, compil
     assert compiled == [law]
 
 
+@pytest.mark.nightly
 def test_what_the_compiler_refuses_is_named_with_its_line():
     source = RIGHT[-1].source.replace("(slope + sqrt(", "(slope + 0.0 * np.log1p(slope) + sqrt(")
     line = source[: source.index("log1p")].count("\n") + 1
