@@ -5,8 +5,8 @@ from pathlib import Path
 
 from bladerub import plugins
 from bladerub.io import tables
+from docs.numbers import ROOT
 
-_ROOT = Path(__file__).parents[1]
 COUNTED = {
     "divergence": ["casing", "E", "K", "theta", "law", "revolutions", "status", "divergent", "saturating"],
     "long_runs": ["law", "why", "revolutions", "verdict"],
@@ -112,7 +112,7 @@ def take(source: Path, target: Path) -> None:
         tables.copy(source, target)
         return
     table, origin = tables.read(source), tables.read_origin(source)
-    columns_files = [*plugins.files("columns.csv"), *_ROOT.glob("studies/*/columns.csv")]
+    columns_files = [*plugins.files("columns.csv"), *ROOT.glob("studies/*/columns.csv")]
     for column, value in only.items():
         table = table[table[column] == value]
     if name in COUNTED:

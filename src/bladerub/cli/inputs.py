@@ -2,7 +2,6 @@
 
 import argparse
 import json
-import math
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -18,6 +17,7 @@ from bladerub.config import record, units
 from bladerub.config.errors import format_value
 from bladerub.io.errors import BadInput, message_for
 from bladerub.io.folders import base_config, study_folder
+from bladerub.io.plain import plain
 
 if TYPE_CHECKING:  # imports that load numba are made where they are needed, so that --help answers at once
     from bladerub.api.blade import Blade
@@ -120,15 +120,7 @@ def progress_bar(total: int, unit: str, items: Iterable | None = None, quiet: bo
 
 def show(options: argparse.Namespace, figures: dict[str, Any], in_words: Callable[[dict], str]) -> None:
     """Print the figures, as JSON if that is asked for; what is not finite is null there."""
-    print(json.dumps(_finite(figures), indent=2, allow_nan=False) if options.json else in_words(figures))
-
-
-def _finite(figures: Any) -> Any:
-    if isinstance(figures, dict):
-        return {name: _finite(value) for name, value in figures.items()}
-    if isinstance(figures, list | tuple):
-        return [_finite(value) for value in figures]
-    return None if isinstance(figures, float) and not math.isfinite(figures) else figures
+    print(json.dumps(plain(figures), indent=2, allow_nan=False) if options.json else in_words(figures))
 
 
 def row(width: int, name: str, *cells: str) -> str:

@@ -11,6 +11,7 @@ import hashlib
 import math
 from collections.abc import Mapping
 from functools import cache
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from bladerub import plugins
@@ -65,10 +66,8 @@ def element_law(entry: Mapping[str, Any]) -> ElementLaw:
     name, file = values.pop("name", PLASTIC.name), values.pop("file", None)
     if file is None:
         return described_law(name, values)
-    path = study_folder() / file
-    if not path.is_file():
-        raise ValueError(f"file = {file}: there is no such file ({path})")
     try:
+        path = file_of(file)
         source = path.read_text(encoding="utf-8")
         if not source:  # which would stand for a law of the package
             raise ValueError("is empty")
@@ -78,10 +77,18 @@ def element_law(entry: Mapping[str, Any]) -> ElementLaw:
     return described_law(path.stem, values, source)
 
 
+def file_of(name: str) -> Path:
+    """Find the file of a law, from the folder of the study; raises `ValueError` if there is none."""
+    path = study_folder() / name
+    if not path.is_file():
+        raise ValueError(f"there is no such file ({path}); a path is from the folder of the study")
+    return path
+
+
 def parameters_in(entry: Mapping[str, Any]) -> Mapping[str, Parameter]:
     """Return the parameters of the law of the block ``contact.law``; raises as `element_law`, or OSError."""
     if entry.get("file"):
-        source = (study_folder() / entry["file"]).read_text(encoding="utf-8")
+        source = file_of(entry["file"]).read_text(encoding="utf-8")
     else:
         source = source_of(ElementLaw(entry.get("name", PLASTIC.name)))
     return parameters_of(source)

@@ -11,8 +11,7 @@ from bladerub.config import units
 from bladerub.config.fields import Form, Omitted, Section, Unit, disagreement
 from bladerub.config.keys import Key
 from bladerub.config.quantities import unknown
-from bladerub.extras.law_reading import parameters_in
-from bladerub.io.folders import study_folder
+from bladerub.extras.law_reading import file_of, parameters_in
 
 
 class Law(Section):
@@ -42,9 +41,11 @@ class Law(Section):
     @field_validator("file")
     @classmethod
     def _is_there(cls, file: str | None) -> str | None:
-        if file is not None and not (path := study_folder() / file).is_file():
-            text = f"there is no such file ({path}); a path is from the folder of the study"
-            raise PydanticCustomError("kind", text.replace("{", "{{"))
+        try:
+            if file is not None:
+                file_of(file)
+        except ValueError as error:
+            raise PydanticCustomError("kind", str(error).replace("{", "{{")) from error
         return file
 
     @classmethod

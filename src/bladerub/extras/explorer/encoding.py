@@ -6,10 +6,11 @@ What the small numbers lose is below what a picture shows. Numbers that a reader
 import base64
 import gzip
 import json
-import math
 from typing import Any
 
 import numpy as np
+
+from bladerub.io.plain import plain
 
 _ESCAPES = str.maketrans({"<": "\\u003c", ">": "\\u003e", "&": "\\u0026"})
 
@@ -57,16 +58,4 @@ def json_text(value: Any) -> str:
 
     Arrays become lists; NaN and infinities, which JSON lacks, become null. Numbers keep all their digits.
     """
-    return json.dumps(_plain(value), allow_nan=False, separators=(",", ":")).translate(_ESCAPES)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _plain(entry) for name, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(entry) for entry in value]
-    if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
+    return json.dumps(plain(value), allow_nan=False, separators=(",", ":")).translate(_ESCAPES)
