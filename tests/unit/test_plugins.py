@@ -10,8 +10,10 @@ import pytest
 
 import bladerub as br
 from bladerub import plugins
+from bladerub.blade.source import reader
 from bladerub.cli import main
 from bladerub.config.models.study import required
+from bladerub.io.errors import BadInput
 from bladerub.io.folders import PACKAGE, ROOT
 
 PROGRAM = """
@@ -81,3 +83,15 @@ def test_a_folder_adds_nothing_without_what_it_needs(monkeypatch, tmp_path):
     monkeypatch.setattr(plugins, "EXTRAS", tmp_path)
     assert "rows of blades" not in plugins.offered.__wrapped__("INVENTORIES")
     assert "columns" in plugins.offered.__wrapped__("MANIFESTS")
+
+
+@pytest.mark.parametrize("place", ["extras.none.reader", "extras.blades.none", "contact.law:none"])
+def test_what_a_plugin_names_and_is_not_there_is_refused_in_a_line(place):
+    with pytest.raises(BadInput, match=r"^bladerub\.\S+: .* plugin.py .*$"):
+        plugins.load(place)
+
+
+def test_a_source_of_blades_lacks_no_function(monkeypatch):
+    monkeypatch.setattr(plugins, "offered", lambda kind: {"file": "contact.law"})
+    with pytest.raises(BadInput, match=r"^bladerub\.contact\.law: has no problems, recipe, files, build,"):
+        reader({"source": {"file": "blade.stl"}})

@@ -19,7 +19,11 @@ from types import ModuleType
 from typing import Any
 
 from bladerub import plugins
+from bladerub.io.errors import BadInput
 from bladerub.io.sources import source_digest
+
+FUNCTIONS = ("problems", "recipe", "files", "build", "frequency_at_rest")
+"""What the module of every source has."""
 
 
 def place(blade: Mapping[str, Any]) -> str | None:
@@ -36,9 +40,17 @@ def place(blade: Mapping[str, Any]) -> str | None:
 
 
 def reader(blade: Mapping[str, Any]) -> ModuleType | None:
-    """Import the module that `place` names; None of a parametric blade."""
-    module = place(blade)
-    return module and plugins.load(module)
+    """Import the module that `place` names; None of a parametric blade.
+
+    Raises `BadInput`, which names it, if it has not all functions of a source.
+    """
+    name = place(blade)
+    if name is None:
+        return None
+    module = plugins.load(name)
+    if missing := [function for function in FUNCTIONS if not hasattr(module, function)]:
+        raise BadInput(f"bladerub.{name}: has no {', '.join(missing)}; a source of blades must have them")
+    return module
 
 
 def files(blade: Mapping[str, Any]) -> list[str]:

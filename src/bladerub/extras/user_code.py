@@ -34,6 +34,8 @@ def bounded(what: str, seconds: float = 0.0) -> Iterator[None]:
         raise ValueError(f"{what} does not end within {longest:g} s") from None
     except (Exception, SystemExit) as error:
         first_line = str(error).strip().partition("\n")[0]
+        if first_line.startswith("The truth value of an array"):
+            first_line = "if, and, or and not are for single numbers; where(condition, a, b) is for arrays"
         raise ValueError(f"{what} raises {type(error).__name__}: {first_line}") from error
     finally:
         with lock:

@@ -15,9 +15,9 @@ _NodeSet = Annotated[
 class Source(Section):
     """A mesh of another program, a table of sections, or matrices, instead of the parametric blade.
 
-    hub_radius, tip_cone and sections then have no effect, mesh only with a table, and the material none with
-    matrices. `bladerub import` with the file or folder checks it, and prints this group for it. Must have
-    either file or matrices.
+    Must have file, matrices, or the key of a source that plugs in. With file or matrices hub_radius, tip_cone
+    and sections have no effect, mesh has one with a table only, and the material none with matrices.
+    `bladerub import` with the file or folder checks it, and prints this group for it.
     """
 
     file: Annotated[
