@@ -14,6 +14,7 @@ at the highest speed 0.05 % (it also stretches).
 import numpy as np
 import pytest
 from plate_solutions import beam_ritz, clamped, straight
+from scipy.spatial.transform import Rotation
 
 from bladerub.blade.elasticity import Material
 from bladerub.blade.linear import factorise, lowest_modes
@@ -118,3 +119,14 @@ def test_a_turn_of_the_whole_body_causes_no_stress(beam):
     turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
     turned = beam.mesh.points @ turn.T - beam.mesh.points
     assert np.abs(stress(beam, turned, np.zeros_like(turned))).max() < 1e-9 * YOUNG
+
+
+def test_stress_turns_with_the_blade_and_the_displacement_is_a_cubic_of_the_squared_speed(beam):
+    # The spline is exact there, and uniform strain along axes turned by much gives Hooke's law along these.
+    turn, strain = Rotation.from_rotvec([0.4, -0.7, 0.9]).as_matrix(), np.diag([3e-4, -1e-4, 2e-4])
+    points, (lam, mu) = beam.mesh.points, beam.material.lame
+    hooke = lam * np.trace(strain) * np.eye(3) + 2 * mu * strain
+    found = stress(beam, points @ (turn - np.eye(3)).T, points @ (turn @ strain).T)
+    np.testing.assert_allclose(found, 0 * found + turn @ hooke @ turn.T, atol=1e-6 * hooke.max())
+    speeds = np.linspace(0, 1, 5)
+    assert running_displacement(speeds, speeds[:, None, None] ** 6, 0.6) == pytest.approx(0.6**6)
