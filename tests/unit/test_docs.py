@@ -60,12 +60,6 @@ def is_of_a_deleted_study(target):
     return target.name == "README.md" and STUDIES in target.parents and not target.parent.exists()
 
 
-def test_no_formula_needs_the_network():
-    """The site would load MathJax, and show the source of formulas where there is no network."""
-    texts = PAGES | {path: path.read_text(encoding="utf-8") for path in (DOCS / "gallery").glob("*.py")}
-    assert [page for page, text in texts.items() if re.search(r":math:|\$\$|\{math\}", text)] == []
-
-
 def test_every_path_named_is_in_the_repository():
     for page, text in PAGES.items():
         for path in set(PATH.findall(text)) - NOT_IN_GIT:
@@ -155,7 +149,6 @@ def test_every_function_of_the_index_bears_its_tag():
         text, node = definition(row["name"].replace(":", "."))
         is_module = isinstance(node, ast.Module)
         source = ast.get_docstring(node) if is_module else ast.get_source_segment(text, node)
-        # and not as the beginning of another
         assert re.search(re.escape(row["tag"]) + r"(?!\d)", source), row
 
 

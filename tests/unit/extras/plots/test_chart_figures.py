@@ -11,7 +11,6 @@ from bladerub.extras.chart import stiffening
 from bladerub.extras.passages.sweeps import SpeedSweep
 from bladerub.extras.plots.chart_moduli import QUANTITIES, chart_map
 from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
-from bladerub.extras.plots.friction import NONE, friction
 from bladerub.extras.plots.law_cycles import law_cycles
 from bladerub.extras.plots.steps import steps
 from bladerub.extras.plots.sweeps import sweeps
@@ -102,11 +101,3 @@ def test_errors_stand_over_steps_and_chaotic_runs_are_left_out():
     np.testing.assert_allclose(of_E2.get_ydata(), 2e-3)
     of_E2 = next(line for line in most.get_lines() if line.get_label() == "E = 2")
     np.testing.assert_allclose(of_E2.get_ydata(), 2.8e-3)
-
-
-def test_differences_by_friction_stand_over_the_speed():
-    coating = {"casing": "2nd", "E": 2.0, "K": 0.5, "theta": 0.15}
-    runs = {"f_omega": [0.15, 0.19], "difference": [-2e-3, 0.0], "slowest_sliding": [0.4, -0.1]}
-    difference, sliding = friction(pd.DataFrame(runs).assign(**coating)).axes
-    np.testing.assert_allclose(difference.get_lines()[0].get_ydata(), [2e-3, NONE])
-    np.testing.assert_allclose(sliding.get_lines()[0].get_ydata(), [0.4, -0.1])
