@@ -23,10 +23,6 @@ if TYPE_CHECKING:  # imports that load numba are made where they are needed, so 
     from bladerub.api.blade import Blade
 
 
-class InputError(BadInput):
-    """Bad input of the command line, or in what it names."""
-
-
 class Parser(argparse.ArgumentParser):
     """Reports a bad command line in one line, without the usage."""
 
@@ -64,17 +60,17 @@ def as_options(**names: str) -> Iterator[None]:
     except errors.InputError as error:
         option = names.get(error.name, error.name).replace("_", "-")
         hint = " (for a casing of another config: --config FILE)" if option == "casing" else ""
-        raise InputError(f"--{option} = {error.value}: {error.right}{hint}") from None
+        raise BadInput(f"--{option} = {error.value}: {error.right}{hint}") from None
 
 
 @contextmanager
 def refused(*kinds: type[Exception], because: str = "") -> Iterator[None]:
-    """Turn errors of these kinds into `InputError`, with the words `because` before their message."""
+    """Turn errors of these kinds into `BadInput`, with the words `because` before their message."""
     try:
         yield
     except kinds as error:
         text = message_for(error) if isinstance(error, OSError) else str(error)
-        raise InputError(because + text) from error
+        raise BadInput(because + text) from error
 
 
 def add_command(commands: Any, name: str, command: Callable, blade: bool = True, **texts: str) -> Parser:
@@ -100,16 +96,16 @@ def require(options: argparse.Namespace, **bounds: tuple[int, int]) -> None:
     for option, (smallest, largest) in bounds.items():
         value = getattr(options, option)
         if value is not None and not smallest <= value <= largest:
-            raise InputError(f"--{option} = {format_value(value)}: must be from {smallest} to {largest}")
+            raise BadInput(f"--{option} = {format_value(value)}: must be from {smallest} to {largest}")
 
 
 def require_writable(option: str, path: Path) -> None:
     """Check that `path`, which need not exist, is in a folder that can be written to or made."""
     folder = next(parent for parent in path.absolute().parents if os.path.lexists(parent))
     if not folder.is_dir():
-        raise InputError(f"--{option} {path}: cannot be written, {folder} is no folder")
+        raise BadInput(f"--{option} {path}: cannot be written, {folder} is no folder")
     if not os.access(folder, os.W_OK):
-        raise InputError(f"--{option} {path}: cannot be written, {folder} is write-protected")
+        raise BadInput(f"--{option} {path}: cannot be written, {folder} is write-protected")
 
 
 def progress_bar(total: int, unit: str, items: Iterable | None = None, quiet: bool = False) -> tqdm:
@@ -177,7 +173,7 @@ def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any],
     law = config["contact"].get("law", {}).get("file")
     named_law = configuration.load(base)["contact"].get("law", {}).get("file")
     if law not in (None, named_law) and not getattr(options, "trust", True):
-        raise InputError(
+        raise BadInput(
             f"{config['results']}/{record.FILE} names the law {law}, a program that this would execute: "
             "read it, then add --trust, or name the config yourself with --config FILE"
         )
@@ -214,7 +210,7 @@ def convert(options: argparse.Namespace, *names: str, reference: units.Reference
         try:
             setattr(options, name, number(f"{section}{name}", typed, reference))
         except ValueError as error:
-            raise InputError(f"--{name.replace('_', '-')} = {format_value(typed)}: {error}") from None
+            raise BadInput(f"--{name.replace('_', '-')} = {format_value(typed)}: {error}") from None
 
 
 def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:
@@ -226,7 +222,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
     """Read the reduced blade, and build it first if the results folder has none.
 
     ``blade.length`` of `config` becomes that of a blade given with ``--blade``: clearances are in this unit.
-    A damaged file is an `OSError` if the command can make it again, an `InputError` if not.
+    A damaged file is an `OSError` if the command can make it again, an `BadInput` if not.
     """
     from bladerub.api import blade as blades
     from bladerub.blade.files import is_built, mesh_path
@@ -238,7 +234,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
         blades.write_blade(config, path)
     elif not options.blade and not is_built(config, path):
-        raise InputError(
+        raise BadInput(
             f"{path}: was built from another config; name that with --config, build it again with "
             "snakemake, delete it, or name another blade with --blade"
         )
@@ -247,7 +243,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
             blade = blades.read_blade(path)
     except OSError as error:
         if options.blade and error.errno is None:  # damaged, and it cannot be made again
-            raise InputError(str(error)) from error
+            raise BadInput(str(error)) from error
         raise
     if options.blade:
         config["blade"]["length"] = blade.length

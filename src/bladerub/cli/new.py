@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, refused
+from bladerub.cli.inputs import refused
+from bladerub.io.errors import BadInput
 from bladerub.io.folders import ROOT
 
 _TEMPLATE = Path(__file__).with_name("template")
@@ -31,7 +32,7 @@ def new(options: argparse.Namespace) -> None:
     """Lay out a study in the folder that the command line names."""
     folder = options.folder
     if folder.is_file() or (folder.is_dir() and any(folder.iterdir())):
-        raise InputError(f"{folder}: is there already, must be a new or an empty folder")
+        raise BadInput(f"{folder}: is there already, must be a new or an empty folder")
     inputs.require_writable("folder", folder / "Snakefile")
     with refused(OSError):
         for name in _COPIED:

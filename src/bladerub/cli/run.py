@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from bladerub import plugins
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, quantity, refused
+from bladerub.cli.inputs import quantity, refused
 from bladerub.cli.run_option import RunOption
+from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.planned import StudyCoating, StudyRun
@@ -105,7 +106,7 @@ def run(options: argparse.Namespace) -> None:
     if not blade and planned.f_omega > fastest:  # of a blade that may not be built yet
         typed = f" ({speed})" if isinstance(speed, str) else ""
         limit = f"reduction.f_omega_max = {fastest:g} (times the first frequency at rest)"
-        raise InputError(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
+        raise BadInput(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
     _point_out(options)
     solver_of(config).check()
     blade = blade or inputs.read_blade(options, config)
@@ -132,11 +133,11 @@ def _check_coating(options: argparse.Namespace) -> None:
         for option in ("E", "K", "theta", "layer-thickness"):
             setting = getattr(options, option.replace("-", "_"))
             if setting is not None:
-                raise InputError(f"--{option} = {setting:g}: goes with --coating abradable only")
+                raise BadInput(f"--{option} = {setting:g}: goes with --coating abradable only")
         return
     for option in ("E", "K"):
         if getattr(options, option) is None:
-            raise InputError(f"--{option}: missing, an abradable coating needs it")
+            raise BadInput(f"--{option}: missing, an abradable coating needs it")
 
 
 def _point_out(options: argparse.Namespace) -> None:
@@ -199,11 +200,11 @@ def _check_output(path: Path) -> None:
         inputs.require_writable("output", path)
         return
     except OSError as error:
-        raise InputError(f"--output {path}: cannot be written ({error.strerror})") from error
+        raise BadInput(f"--output {path}: cannot be written ({error.strerror})") from error
     if path.is_dir():
-        raise InputError(f"--output {path}: is a folder, must be a file")
+        raise BadInput(f"--output {path}: is a folder, must be a file")
     if not _is_run(path):
-        raise InputError(f"--output {path}: is there and is no run, must be a new file or a run to replace")
+        raise BadInput(f"--output {path}: is there and is no run, must be a new file or a run to replace")
     inputs.require_writable("output", path)
 
 

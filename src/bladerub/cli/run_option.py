@@ -22,7 +22,7 @@ class RunOption:
         """Add the options to those of the command."""
 
     def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
-        """Check and convert the options; raises `bladerub.cli.inputs.InputError`."""
+        """Check and convert the options; raises `bladerub.io.errors.BadInput`."""
 
     def vary(self, options: argparse.Namespace, study: "Study") -> "Study":
         """Return the study as the options change it."""

@@ -3,6 +3,7 @@
 import argparse
 
 from bladerub.cli import inputs
+from bladerub.io.errors import BadInput
 
 
 def add_law_parameters_to(parser: inputs.Parser, option: str, text: str) -> None:
@@ -18,7 +19,5 @@ def law_parameters(option: str, settings: list[str]) -> dict[str, float | str]:
         try:
             values[name.strip()] = inputs.quantity(value)
         except argparse.ArgumentTypeError:
-            raise inputs.InputError(
-                f"{option} = {setting}: must be NAME=VALUE, such as viscosity=1e4"
-            ) from None
+            raise BadInput(f"{option} = {setting}: must be NAME=VALUE, such as viscosity=1e4") from None
     return values

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError
 from bladerub.io.errors import BadInput
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
@@ -54,12 +53,12 @@ def benchmark(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     inputs.require(options, rounds=(1, 1000), cores=(1, 1_000_000))
     if all(entry.get("coating") == "rigid" for entry in config["coatings"]):
-        raise InputError("coatings: must have an abradable one, as contact with it is what is measured")
+        raise BadInput("coatings: must have an abradable one, as contact with it is what is measured")
     for n in options.nodes:
         if not FEWEST_NODES <= n <= MOST_NODES:
-            raise InputError(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
+            raise BadInput(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
     if options.nodes and "matrices" in config["blade"].get("source", {}):
-        raise InputError("--nodes: a blade of matrices has the interface nodes that its folder marks")
+        raise BadInput("--nodes: a blade of matrices has the interface nodes that its folder marks")
     if options.gpu is not None:
         _on_gpu(options, config)
         return
@@ -94,7 +93,7 @@ def benchmark(options: argparse.Namespace) -> None:
 def _on_gpu(options: argparse.Namespace, config: dict[str, Any]) -> None:
     inputs.require(options, gpu=(1, 1_000_000))
     if options.nodes or options.stress:
-        raise InputError("--gpu: goes with neither --nodes nor --stress")
+        raise BadInput("--gpu: goes with neither --nodes nor --stress")
 
     from bladerub.extras.benchmark import gpu, record
     from bladerub.extras.gpu import device

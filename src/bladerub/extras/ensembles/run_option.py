@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError
 from bladerub.cli.run_option import RunOption
+from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
@@ -28,11 +28,9 @@ class EnsembleOption(RunOption):
         if options.ensemble is None:
             return
         if options.ensemble < 1:
-            raise InputError(f"--ensemble = {options.ensemble}: must be at least 1")
+            raise BadInput(f"--ensemble = {options.ensemble}: must be at least 1")
         if getattr(options, "blades", None) is not None:
-            raise InputError(
-                f"--ensemble = {options.ensemble}: not with --blades; give another --seed instead"
-            )
+            raise BadInput(f"--ensemble = {options.ensemble}: not with --blades; give another --seed instead")
 
     def figures(
         self, options: argparse.Namespace, planned: "StudyRun", blade: "Blade", run: "Run"

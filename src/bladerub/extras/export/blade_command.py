@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, refused
+from bladerub.cli.inputs import refused
+from bladerub.io.errors import BadInput
 
 COORDINATES = ("cartesian", "cylindrical")
 
@@ -42,16 +43,14 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     for option, suffixes in (("mesh", mesh_file.FORMATS), ("matrices", matrices.SUFFIXES)):
         file = getattr(options, option)
         if file and file.suffix.lower() not in suffixes:
-            raise InputError(f"--{option} {file}: must end in {', '.join(suffixes)}")
+            raise BadInput(f"--{option} {file}: must end in {', '.join(suffixes)}")
     stored_blade = inputs.read_blade(options, config)
     path, blade = stored_blade.path, stored_blade.reduced
     with refused(OSError):
         mesh = read_mesh(stored_blade.mesh_path, blade)
         needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")
         if needs_elements and not len(mesh["cells"]):
-            raise InputError(
-                f"{path}: is of matrices, without elements; write --mesh with .vtu or --matrices"
-            )
+            raise BadInput(f"{path}: is of matrices, without elements; write --mesh with .vtu or --matrices")
         if options.matrices:
             matrices.write_matrices(options.matrices, blade)
             files = [options.matrices]
@@ -72,9 +71,9 @@ def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> d
     """Compute the finite element matrices of the blade of the config again, and write them."""
     folder = options.fe_matrices
     if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
-        raise InputError(f"--fe-matrices {folder}: is there already, must be a new or an empty folder")
+        raise BadInput(f"--fe-matrices {folder}: is there already, must be a new or an empty folder")
     if "matrices" in config["blade"].get("source", {}):
-        raise InputError("--fe-matrices: the blade of the config is of matrices already, without elements")
+        raise BadInput("--fe-matrices: the blade of the config is of matrices already, without elements")
     inputs.require_writable("fe-matrices", folder)
     f_max = config["reduction"]["f_omega_max"]
     speeds = sorted(_speeds(options, f_max))
@@ -124,7 +123,7 @@ def _speeds(options: argparse.Namespace, highest: float) -> list[float]:
         return [0.0, highest / 2, highest]
     for speed in options.speeds:
         if not 0 <= speed <= highest:
-            raise InputError(f"--speeds {speed:g}: must be from 0 to {highest:g} (normalised)")
+            raise BadInput(f"--speeds {speed:g}: must be from 0 to {highest:g} (normalised)")
     return list(dict.fromkeys(options.speeds))
 
 
@@ -141,10 +140,10 @@ def write_sections(options: argparse.Namespace, config: dict[str, Any]) -> dict[
 
     path = options.sections
     if path.suffix.lower() not in TABLE_SUFFIXES:
-        raise InputError(f"--sections {path}: must end in {', '.join(TABLE_SUFFIXES)}")
+        raise BadInput(f"--sections {path}: must end in {', '.join(TABLE_SUFFIXES)}")
     if source := config["blade"].get("source"):
         origin = source.get("file") or source["matrices"]
-        raise InputError(
+        raise BadInput(
             f"--sections {path}: the blade comes from {origin}; only a parametric one has sections"
         )
 

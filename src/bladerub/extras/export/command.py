@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, refused
+from bladerub.cli.inputs import refused
 from bladerub.extras.export import blade_command
+from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
@@ -74,10 +75,10 @@ def export(options: argparse.Namespace) -> None:
     for option, forms in _GOES_WITH.items():
         if getattr(options, option) and not any(getattr(options, form) for form in forms):
             names = " or ".join(f"--{form.replace('_', '-')}" for form in forms)
-            raise InputError(f"--{option.replace('_', '-')}: goes with {names} only")
+            raise BadInput(f"--{option.replace('_', '-')}: goes with {names} only")
     for form in ("vtu", "animation"):
         if getattr(options, form) and not options.run:
-            raise InputError(f"--{form}: needs --run, the run whose motion is written")
+            raise BadInput(f"--{form}: needs --run, the run whose motion is written")
     if options.animation:
         inputs.show(options, _animation(options, config), _animation_in_words)
     elif options.vtu:
@@ -124,7 +125,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
 def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
     """Write the animation of a run; return what was written."""
     if options.animation.suffix.lower() != ".gif":
-        raise InputError(f"--animation {options.animation}: must end in .gif")
+        raise BadInput(f"--animation {options.animation}: must end in .gif")
     _check_new(options, config, "animation")
 
     from bladerub.extras.export.animation import animate
@@ -151,7 +152,7 @@ def _check_new(options: argparse.Namespace, config: dict[str, Any], form: str) -
     path = getattr(options, form)
     if path.exists():
         kind = "folder" if form == "vtu" else "file"
-        raise InputError(f"--{form} {path}: is there already, must be a new {kind}")
+        raise BadInput(f"--{form} {path}: is there already, must be a new {kind}")
     inputs.require_writable(form, path)
 
 
@@ -162,7 +163,7 @@ def _run_and_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tupl
         run = run_set.read(options.run)[""]
     path = inputs.blade_path(options, config)
     if not path.exists():
-        raise InputError(f"{path}: is missing; name the blade of the run with --blade, or its --config")
+        raise BadInput(f"{path}: is missing; name the blade of the run with --blade, or its --config")
     return run, inputs.read_blade(options, config)
 
 
@@ -173,13 +174,11 @@ def _plan(options: argparse.Namespace, config: dict[str, Any], run: "StoredRun",
     try:
         plan = claimed_run(config, options.run.name, run)
     except KeyError as error:
-        raise InputError(
-            f"--run {options.run}: {error} is not known; must be a run of this config"
-        ) from error
+        raise BadInput(f"--run {options.run}: {error} is not known; must be a run of this config") from error
     except (TypeError, ValueError) as error:
-        raise InputError(f"--run {options.run}: its attributes are not those of a run ({error})") from error
+        raise BadInput(f"--run {options.run}: its attributes are not those of a run ({error})") from error
     if plan.key(blade_digest(blade)) != run.attributes["run_key"]:
-        raise InputError(
+        raise BadInput(
             f"--run {options.run}: is not of this config, the blade {blade} and this version of the solver "
             "(its run_key differs); name those of the run with --config and --blade, or compute it again"
         )
@@ -202,7 +201,7 @@ def _record(
     if run.attributes["status"] == "unbounded":
         last = int(np.count_nonzero(np.isfinite(run.data["revolution_peak"]))) - 1
     if last == 0:
-        raise InputError(
+        raise BadInput(
             f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "
             "revolution is complete"
         )
@@ -221,7 +220,7 @@ def _record(
     stored = run.data["revolution_peak"][:last]
     difference = np.max(np.abs(recording.revolution_peak[blade_index] - stored))
     if not difference <= SAME * np.max(stored):
-        raise InputError(
+        raise BadInput(
             f"--run {options.run}: computed again, its peaks differ by {difference:.2g} m: it was made on "
             "another kind of machine or with other packages; compute it here with bladerub run --output"
         )

@@ -4,9 +4,9 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError
 from bladerub.cli.run_option import RunOption
 from bladerub.extras.law_options import add_law_parameters_to, law_parameters
+from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.api.study import Study
@@ -25,9 +25,9 @@ class LawOption(RunOption):
     def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
         """Refuse a law of the rigid casing, and parameters of none."""
         if options.law is not None and options.coating == "rigid":
-            raise InputError(f"--law = {options.law}: goes with --coating abradable only")
+            raise BadInput(f"--law = {options.law}: goes with --coating abradable only")
         if law_parameters("--law-parameter", options.law_parameter) and options.law is None:
-            raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")
+            raise BadInput(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")
 
     def vary(self, options: argparse.Namespace, study: "Study") -> "Study":
         """Return the study with the law."""

@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, refused
+from bladerub.cli.inputs import refused
 from bladerub.config import record
+from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.extras.report.results import Results
@@ -60,14 +61,14 @@ def _require(files: list[Path], overlays: list[str], folder: Path) -> None:
         made_with = record.Record(overlays) if overlays else record.read(folder)
         target = missing[0].relative_to(inputs.study_folder()).as_posix()
         command = f"snakemake -j2 {made_with.as_arguments() if made_with else ''}".strip()
-        raise InputError(f"{target} is missing: the study is not finished; run {command}")
+        raise BadInput(f"{target} is missing: the study is not finished; run {command}")
 
 
 def _chosen(names: list[str], finished: "Results") -> list[str]:
     """Return the coatings of ``--coating``, each once."""
     for name in names:
         if name not in finished.cases:
-            raise InputError(f"--coating {name}: is no coating of the study; bladerub status lists them")
+            raise BadInput(f"--coating {name}: is no coating of the study; bladerub status lists them")
     if len(names) > _MOST_COATINGS:
-        raise InputError(f"--coating: {len(names)} names; must be {_MOST_COATINGS} or fewer")
+        raise BadInput(f"--coating: {len(names)} names; must be {_MOST_COATINGS} or fewer")
     return list(dict.fromkeys(names))

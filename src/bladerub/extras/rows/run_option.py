@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, quantity
+from bladerub.cli.inputs import quantity
 from bladerub.cli.run_option import RunOption
+from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
@@ -50,9 +51,9 @@ class RowOption(RunOption):
         for name, value in _settings(options).items():
             option = f"--{name.replace('_', '-')} = {value:g}"
             if options.blades is None:
-                raise InputError(f"{option}: goes with --blades only")
+                raise BadInput(f"{option}: goes with --blades only")
             if not (math.isfinite(value) and value >= 0):
-                raise InputError(f"{option}: must be 0 or more")
+                raise BadInput(f"{option}: must be 0 or more")
         inputs.require(options, blades=(1, int(key_at("rotor.blades").bounds["le"])))
 
     def arguments(self, options: argparse.Namespace) -> dict[str, Any]:

@@ -6,8 +6,8 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError
 from bladerub.cli.run_option import RunOption
+from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
@@ -31,7 +31,7 @@ class StressOption(RunOption):
     def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
         """Refuse the stress of rows."""
         if options.stress and (getattr(options, "blades", None) is not None or config.get("rotor")):
-            raise InputError(
+            raise BadInput(
                 "--stress: is of a single blade; not with --blades or the block rotor of the config"
             )
 

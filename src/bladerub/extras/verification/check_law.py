@@ -5,9 +5,10 @@ from dataclasses import asdict
 from typing import Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, refused
+from bladerub.cli.inputs import refused
 from bladerub.extras.law_options import add_law_parameters_to, law_parameters
 from bladerub.extras.law_settings import law_entry
+from bladerub.io.errors import BadInput
 
 
 def add_to(commands: Any) -> None:
@@ -44,7 +45,7 @@ def check_law(options: argparse.Namespace) -> int:
         law = element_law({"contact": {"law": law_entry(options.law, values)}})
     cases = [case for case in coating_cases(config) if not case.is_rigid]
     if not cases:
-        raise InputError("coatings: have no abradable layer; a law needs one")
+        raise BadInput("coatings: have no abradable layer; a law needs one")
     softest, stiffest = min(cases, key=lambda case: case.E), max(cases, key=lambda case: case.E)
     coatings = [run_spec(config, case, 0.2).coating for case in (softest, stiffest, cases[len(cases) // 2])]
     report = check(law, coatings, options.seed)

@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, refused
+from bladerub.cli.inputs import refused
+from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.extras.verification.verify import StudyRun
@@ -49,7 +50,7 @@ def verify(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     inputs.require(options, seed=(0, 2**63), jobs=(1, 1000))
     if options.rows and options.peaks:
-        raise InputError(f"--rows = {options.rows}: not with --peaks, which are of single blades")
+        raise BadInput(f"--rows = {options.rows}: not with --peaks, which are of single blades")
 
     from bladerub.extras.study_runs import study_runs
     from bladerub.extras.verification.report import report
@@ -66,7 +67,7 @@ def verify(options: argparse.Namespace) -> None:
     blade = inputs.read_blade(options, config)
     fastest = max(run.f_omega for run in runs)
     if fastest > blade.reduced.f_omega_max:
-        raise InputError(
+        raise BadInput(
             f"f_omega = {fastest:g}: the speeds of the study must be at most "
             f"{blade.reduced.f_omega_max:g} (normalised), the highest of {blade.path}"
         )

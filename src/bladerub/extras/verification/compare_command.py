@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, refused
+from bladerub.cli.inputs import refused
+from bladerub.io.errors import BadInput
 from bladerub.io.folders import BENCHMARKS
 
 DIFFERENT = 1
@@ -40,7 +41,7 @@ def compare(options: argparse.Namespace) -> int:
     )
     for folder in (options.folder, reference):
         if not folder.is_dir():
-            raise InputError(f"{folder}: there is no such folder")
+            raise BadInput(f"{folder}: there is no such folder")
     with refused(ValueError, OSError):
         table = compare_tables(options.folder, reference)
     different = table[~table.agrees]
