@@ -1,6 +1,5 @@
 """The report on the errors of many runs: how they are distributed, and which runs are beyond tolerance."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
@@ -9,6 +8,7 @@ import numpy as np
 
 from bladerub.extras.verification.differences import Differences
 from bladerub.extras.verification.verify import TOLERANCE, Seconds, VerifiedRun
+from bladerub.io.plain import plain
 
 
 def report(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
@@ -39,17 +39,14 @@ def report(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
         "speedup_at_equal_error": float(np.median(speedups)) if speedups else None,
         "left_out": len(verified) - len(speedups),
         "seconds": Seconds(*np.mean([run.seconds for run in verified], axis=0).tolist())._asdict(),
-        "beyond": [_entry(run) for run in beyond],
+        "beyond": plain([_entry(run) for run in beyond]),
     }
 
 
 def distribution(values: Sequence[float]) -> dict[str, float | None]:
     """Median, smallest value that at least 95 % of the values do not exceed, and maximum."""
-    return {
-        "median": _finite(np.median(values)),
-        "p95": _finite(np.quantile(values, 0.95, method="inverted_cdf")),
-        "max": _finite(max(values)),
-    }
+    p95 = np.quantile(values, 0.95, method="inverted_cdf")
+    return plain({"median": np.median(values), "p95": p95, "max": max(values)})
 
 
 def _distributions(several: Sequence[Differences]) -> dict[str, Any]:
@@ -58,21 +55,12 @@ def _distributions(several: Sequence[Differences]) -> dict[str, Any]:
 
 
 def _entry(verified: VerifiedRun) -> dict[str, Any]:
-    case = asdict(verified.run.case)
     return {
         "name": verified.run.name,
-        **case | {modulus: _finite(case[modulus]) for modulus in ("E", "K")},
+        **asdict(verified.run.case),
         "f_omega": verified.run.f_omega,
         "status": verified.status,
-        **_plain(verified.error),
-        "spread": None if verified.spread is None else _plain(verified.spread),
+        **verified.error._asdict(),
+        "spread": verified.spread and verified.spread._asdict(),
         "sensitive": verified.is_sensitive,
     }
-
-
-def _plain(several: Differences) -> dict[str, float | None]:
-    return {measure: _finite(value) for measure, value in several._asdict().items()}
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
