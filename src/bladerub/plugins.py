@@ -45,11 +45,13 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from bladerub.io.errors import BadInput
-
 EXTRAS = Path(__file__).parent / "extras"
 
 _PLACES = "which the plugin.py of a folder in src/bladerub/extras adds"
+
+
+class MissingPart(ImportError):
+    """What a ``plugin.py`` adds and is not there; the message names it."""
 
 
 @cache
@@ -59,17 +61,17 @@ def offered(kind: str) -> dict[str, str]:
 
 
 def load(place: str) -> Any:
-    """Import a module, or an object of one, by its place; raises `BadInput` if it is not there."""
+    """Import a module, or an object of one, by its place; raises `MissingPart` if it is not there."""
     module, _, name = place.partition(":")
     module = f"bladerub.{module}"
     try:
         loaded = import_module(module)
     except ModuleNotFoundError as error:
         if error.name and f"{module}.".startswith(f"{error.name}."):
-            raise BadInput(f"{module}: no such module, {_PLACES}") from error
+            raise MissingPart(f"{module}: no such module, {_PLACES}") from error
         raise
     if name and not hasattr(loaded, name):
-        raise BadInput(f"{module}: has no {name}, {_PLACES}")
+        raise MissingPart(f"{module}: has no {name}, {_PLACES}")
     return getattr(loaded, name) if name else loaded
 
 

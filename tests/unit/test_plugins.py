@@ -87,7 +87,7 @@ def test_a_folder_adds_nothing_without_what_it_needs(monkeypatch, tmp_path):
 
 @pytest.mark.parametrize("place", ["extras.none.reader", "extras.blades.none", "contact.law:none"])
 def test_what_a_plugin_names_and_is_not_there_is_refused_in_a_line(place):
-    with pytest.raises(BadInput, match=r"^bladerub\.\S+: .* plugin.py .*$"):
+    with pytest.raises(plugins.MissingPart, match=r"^bladerub\.\S+: .* plugin.py .*$"):
         plugins.load(place)
 
 

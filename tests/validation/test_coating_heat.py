@@ -15,8 +15,8 @@ from scipy.special import erf
 from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import module_of
 from bladerub.contact.run import simulate, simulate_longer
-from bladerub.contact.setup import element_area
 from bladerub.contact.spec import Coating
+from bladerub.contact.strips import element_area
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.laws import heating

@@ -54,7 +54,7 @@ def main(arguments: list[str] | None = None) -> int:
     except ConfigError as error:
         print(error, file=sys.stderr)
         return 2
-    except BadInput as error:
+    except (BadInput, plugins.MissingPart) as error:
         message = " ".join(str(error).split())
     except BrokenPipeError:  # the reader, such as head, has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

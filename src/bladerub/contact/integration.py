@@ -9,8 +9,8 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.schemes import Recurrence
-from bladerub.contact.setup import by_angle, element_angle
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.strips import by_angle, element_angle
 
 
 class Segment(NamedTuple):

@@ -12,8 +12,9 @@ import scipy.linalg
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import casing, law
 from bladerub.contact.modes import at_tip, tip_radii
-from bladerub.contact.setup import element_angle, element_area, running_clearance, time_step
+from bladerub.contact.setup import time_step
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.strips import element_angle, element_area, running_clearance
 from bladerub.contact.tip import coverage, relief
 
 

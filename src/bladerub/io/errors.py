@@ -7,6 +7,8 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from bladerub.plugins import MissingPart
+
 _FULL = {errno.ENOSPC: "the disk is full", errno.EDQUOT: "the disk quota is used up"}
 _FORBIDDEN = {errno.EROFS, errno.EACCES, errno.EPERM}
 _LOCKED = {errno.EAGAIN, errno.ENOLCK, errno.EDEADLK}
@@ -34,9 +36,9 @@ class BadInput(ValueError):
         return copyreg.__newobj__, (type(self), *self.args), vars(self)
 
 
-def message_for(error: OSError | BadInput) -> str:
+def message_for(error: OSError | BadInput | MissingPart) -> str:
     """Say what is wrong and what to do about it; in one line, if it is a file."""
-    if isinstance(error, BadInput):
+    if isinstance(error, BadInput | MissingPart):
         return str(error)
     if isinstance(error, DamagedFile):
         return f"{error}; delete it and run the same command again: it is made again, nothing else is lost"
@@ -65,9 +67,9 @@ def _is_readable(path: str) -> bool:
 
 @contextmanager
 def exit_on_error() -> Iterator[None]:
-    """Turn an `OSError` or `BadInput` into its message on standard error and exit code 2, no traceback."""
+    """Turn an error of input or files into its message on standard error and exit code 2, no traceback."""
     try:
         yield
-    except (OSError, BadInput) as error:
+    except (OSError, BadInput, MissingPart) as error:
         print(message_for(error), file=sys.stderr)
         sys.exit(2)

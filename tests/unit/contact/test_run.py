@@ -10,7 +10,9 @@ from stand_in import made_blade
 from bladerub.contact import casing, reference
 from bladerub.contact.modes import modes_at
 from bladerub.contact.run import simulate, simulate_longer
-from bladerub.contact.setup import SEARCH_RANGE, set_up, strip_width
+from bladerub.contact.setup import set_up
+from bladerub.contact.start import SEARCH_RANGE
+from bladerub.contact.strips import strip_width
 
 
 def check(result, history, wear, spec):

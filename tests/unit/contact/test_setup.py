@@ -8,7 +8,9 @@ import scipy.linalg
 from stand_in import made_blade
 
 from bladerub.contact import setup
-from bladerub.contact.setup import SEARCH_RANGE, minimum_gap
+from bladerub.contact.start import SEARCH_RANGE, Seat, tip_record
+from bladerub.contact.stator import minimum_gap
+from bladerub.contact.strips import by_angle
 
 N = 200
 UNEVEN = np.array([-0.023, -0.021, -0.016, -0.015, -0.002, 0.011, 0.013, 0.024])
@@ -72,7 +74,7 @@ def test_the_blade_begins_over_the_element_at_its_angle(uneven, spec):
     angle = spec.casing.start_angle + np.arctan2(uneven.node_position[:, 1], uneven.node_position[:, 2])
     marked = np.zeros((n_elements, 8))
     marked[0] = 1.0  # the first row
-    elements = setup.by_angle(uneven, spec, marked).argmax(axis=1)
+    elements = by_angle(uneven, spec, marked).argmax(axis=1)
     np.testing.assert_array_equal(elements, np.floor(angle / (2 * np.pi) * n_elements) % n_elements)
     np.testing.assert_allclose(simulation.tip.start, angle / (2 * np.pi) * n_elements % 1.0, atol=1e-9)
 
@@ -98,7 +100,7 @@ def test_a_deflected_blade_has_moved_freely_until_then(blade, spec, change, damp
 
 def test_no_node_of_a_conical_tip_is_searched_beyond_the_range(blade, spec):
     position = blade.node_position * np.linspace(1.0, 1.2, 8)[:, None]
-    tip = setup.tip_record(dataclasses.replace(blade, node_position=position), spec)
+    tip = tip_record(dataclasses.replace(blade, node_position=position), spec)
     assert (tip.search_range * tip.per_metre).max() == pytest.approx(SEARCH_RANGE)
 
 
@@ -121,7 +123,7 @@ def test_accepted_limits_keep_every_index_within_a_turn(blade, spec, change, see
     for limit in radius * np.geomspace(1e-3, 2.0, 300):
         run = change(spec, n_elements=n, half_width=half_width, displacement_limit=limit)
         try:
-            tip = setup.tip_record(blade, run, setup.Seat(ahead))
+            tip = tip_record(blade, run, Seat(ahead))
         except ValueError:
             continue
         accepted = limit
@@ -144,7 +146,7 @@ def test_a_blade_whose_tip_may_leave_the_turn_is_refused(blade, spec):
     near_the_axis = dataclasses.replace(blade, node_position=one_node)
     for broken in (at_radius(blade, 1e-6), near_the_axis, outwards, no_numbers):
         with np.errstate(all="ignore"), pytest.raises(ValueError, match="displacement limit"):
-            setup.tip_record(broken, spec)
+            tip_record(broken, spec)
 
 
 def broken_parts(part):

@@ -47,7 +47,7 @@ class Tip(NamedTuple):
     """Where the interface nodes are, in element widths, and the profile they carry."""
 
     # (8,): Position of each node at the start of a revolution, in rows: within [0, 1), and how far the blade
-    # is ahead (`bladerub.contact.setup.Seat`)
+    # is ahead (`bladerub.contact.start.Seat`)
     start: np.ndarray
     per_metre: np.ndarray  # (8,): Elements per metre of tangential displacement
     radius: np.ndarray  # (8,): Radius of curvature of the path of each node along the casing, m

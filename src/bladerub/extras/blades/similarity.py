@@ -8,7 +8,7 @@ then behaves the same in these units; for another one, E and K compare coating a
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.setup import strip_width
+from bladerub.contact.strips import strip_width
 
 # The stand-in of config/config.yaml, which the values of the contact there are for
 LENGTH = 0.2  # m

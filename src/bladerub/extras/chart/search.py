@@ -22,8 +22,8 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
-from bladerub.contact.setup import element_area
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.strips import element_area
 from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
 from bladerub.extras.chart.point import MEASURES, ChartPoint
 from bladerub.study.grid import CoatingCase, run_spec

@@ -10,7 +10,7 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import tip_radii
-from bladerub.contact.setup import element_angle
+from bladerub.contact.strips import element_angle
 from bladerub.extras.export.recording import Recording
 from bladerub.extras.rows.spec import Row
 from bladerub.io import atomic

@@ -10,8 +10,8 @@ from threadpoolctl import threadpool_limits
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.energy import forces_of_nodes
 from bladerub.contact.modes import at_tip, mode_shapes_at
-from bladerub.contact.setup import by_angle
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.strips import by_angle
 from bladerub.extras.rows.row import set_up_row
 from bladerub.extras.rows.spec import Row
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.setup import element_angle
+from bladerub.contact.strips import element_angle
 from bladerub.extras.export.mesh_file import block
 from bladerub.extras.export.recording import Recording
 from bladerub.extras.rows.spec import Row

@@ -22,8 +22,11 @@ from bladerub.blade.tip import tip_radius
 from bladerub.contact import energy
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.schemes import Recurrence
-from bladerub.contact.setup import SEARCH_RANGE, by_angle, minimum_gap, set_up, strip_width
+from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Casing, RunSpec, TipProfile
+from bladerub.contact.start import SEARCH_RANGE
+from bladerub.contact.stator import minimum_gap
+from bladerub.contact.strips import by_angle, strip_width
 from bladerub.extras.rig.passes import COLUMNS as RIGID_COLUMNS
 from bladerub.extras.rig.spec import Rig
 from bladerub.numerics.memory import aligned

@@ -21,8 +21,8 @@ import scipy.io
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import casing
 from bladerub.contact.modes import mode_shapes_at, tip_radii
-from bladerub.contact.setup import running_clearance
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.strips import running_clearance
 from bladerub.extras.rotor37 import direct
 from bladerub.extras.rotor37.numbers import of_displacement
 from bladerub.io.errors import BadInput

@@ -28,8 +28,10 @@ from bladerub.contact.kernel.records import COATING
 from bladerub.contact.laws import module_for
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.run import run_result
-from bladerub.contact.setup import Seat, element_area, fixed_steps, set_up_modes
+from bladerub.contact.setup import fixed_steps, set_up_modes
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.start import Seat
+from bladerub.contact.strips import element_area
 from bladerub.extras.rows.kernel import Coupling, Rests, RowSimulation
 from bladerub.extras.rows.result import RowResult
 from bladerub.extras.rows.spec import Row, RowBlade

@@ -23,8 +23,9 @@ from bladerub.blade.build import build
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
-from bladerub.contact.setup import compile_kernel, fixed_steps, strip_width
+from bladerub.contact.setup import compile_kernel, fixed_steps
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.strips import strip_width
 from bladerub.extras.verification.response import CASE_COLUMNS, Response, listed
 from bladerub.study.grid import CoatingCase, element_law, run_spec
 

@@ -10,9 +10,9 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
-from bladerub.contact.setup import element_passage
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import own_steps, with_steps
+from bladerub.contact.strips import element_passage
 from bladerub.extras.verification.differences import differences, largest
 from bladerub.extras.verification.response import CASE_COLUMNS
 from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, TOLERANCE, StudyRun

@@ -28,9 +28,10 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
-from bladerub.contact.setup import compile_kernel, element_passage
+from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.contact.steps import STABLE_PART, with_steps
+from bladerub.contact.strips import element_passage
 from bladerub.extras.important_runs import chosen
 from bladerub.extras.study_runs import StudyRun
 from bladerub.extras.verification.differences import Differences, differences, largest

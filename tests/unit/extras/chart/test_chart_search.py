@@ -6,7 +6,7 @@ from functools import reduce
 import numpy as np
 import pytest
 
-from bladerub.contact.setup import strip_width
+from bladerub.contact.strips import strip_width
 from bladerub.extras.chart import column, search
 from bladerub.extras.chart.grid import check, nearest_speeds
 from bladerub.extras.chart.plan import chart_speeds, columns, expected_minutes, in_words, plan

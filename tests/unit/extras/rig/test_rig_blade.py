@@ -8,8 +8,8 @@ import yaml
 from bladerub import plugins
 from bladerub.blade.tip import tip_radius
 from bladerub.config.errors import ConfigError
-from bladerub.contact.setup import strip_width
 from bladerub.contact.spec import PLASTIC
+from bladerub.contact.strips import strip_width
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.plots.rigs import rigs as draw

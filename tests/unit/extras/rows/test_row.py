@@ -8,7 +8,7 @@ import scipy.linalg
 from bladerub.contact.modes import modes_at
 from bladerub.contact.run import simulate
 from bladerub.contact.schemes import SCHEMES
-from bladerub.contact.setup import element_area
+from bladerub.contact.strips import element_area
 from bladerub.extras.rows import study
 from bladerub.extras.rows.row import coupled_frequencies, simulate_row
 from bladerub.extras.rows.spec import Disk, Row, RowBlade

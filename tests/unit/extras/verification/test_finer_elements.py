@@ -7,8 +7,9 @@ import pytest
 
 from bladerub.contact.law import element
 from bladerub.contact.modes import Modes
-from bladerub.contact.setup import element_area, time_step
+from bladerub.contact.setup import time_step
 from bladerub.contact.steps import with_steps
+from bladerub.contact.strips import element_area
 from bladerub.extras.verification import impact, refinement, response, rigid_casing
 from bladerub.study.grid import run_spec
 from bladerub.study.peaks import COLUMNS
