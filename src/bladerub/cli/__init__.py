@@ -13,7 +13,7 @@ from bladerub import __version__, plugins
 from bladerub.cli import new, run, status
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
-from bladerub.io.errors import BadInput, message_for
+from bladerub.io.errors import BadInput, exit_on_error, message_for
 from bladerub.io.folders import provide_for_unknown_user
 from bladerub.io.garbage import collect_seldom
 
@@ -44,7 +44,8 @@ def main(arguments: list[str] | None = None) -> int:
     collect_seldom()
     for stream in (sys.stdout, sys.stderr):
         _write_any_text(stream)
-    options = parser().parse_args(arguments)
+    with exit_on_error():  # what a plugin names and is not there
+        options = parser().parse_args(arguments)
     code, message = 2, None
     try:
         provide_for_unknown_user()

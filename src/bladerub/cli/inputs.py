@@ -222,7 +222,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
     """Read the reduced blade, and build it first if the results folder has none.
 
     ``blade.length`` of `config` becomes that of a blade given with ``--blade``: clearances are in this unit.
-    A damaged file is an `OSError` if the command can make it again, an `BadInput` if not.
+    A damaged file is an `OSError` if the command can make it again, a `BadInput` if not.
     """
     from bladerub.api import blade as blades
     from bladerub.blade.files import is_built, mesh_path

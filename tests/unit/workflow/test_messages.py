@@ -23,18 +23,14 @@ def lines(capsys):
     return printed
 
 
-def begun(number, rule):
-    return logging.INFO, "", {"event": LogEvent.JOB_INFO, "jobid": number, "rule_name": rule}
-
-
-def done(number):
-    return logging.INFO, "", {"event": LogEvent.JOB_FINISHED, "job_id": number}
+def job(number, rule=None):
+    begun = {"event": LogEvent.JOB_INFO, "jobid": number, "rule_name": rule}
+    return logging.INFO, "", begun if rule else {"event": LogEvent.JOB_FINISHED, "job_id": number}
 
 
 def test_a_line_for_the_plan_and_for_each_stage_that_is_done(lines):
-    selected = logging.INFO, "Select jobs to execute...", {}
-    jobs = [begun(1, "coating"), begun(2, "coating"), done(2), selected]
-    jobs += [begun(3, "fig11_Y4"), done(3), done(1)]
+    jobs = [job(1, "coating"), job(2, "coating"), job(2), (logging.INFO, "Select jobs to execute...", {})]
+    jobs += [job(3, "fig11_Y4"), job(3), job(1)]
     plan, *stages = lines(PLAN, *jobs)
     assert plan == "3 jobs: coating 2, figures"
     assert [line.split(maxsplit=1)[1] for line in stages] == [
@@ -45,11 +41,10 @@ def test_a_line_for_the_plan_and_for_each_stage_that_is_done(lines):
 
 def test_errors_and_warnings_are_shown_and_no_line_is_long(lines):
     inputs = "Error in rule coating:\n    input: " + ", ".join(["results/blade.h5"] * 100)
-    shown = lines(
-        (logging.ERROR, inputs, {}), (logging.WARNING, "old", {}), (logging.INFO, "shell: bash", {})
-    )
+    shell = logging.INFO, "shell: bash", {}
+    shown = lines((logging.ERROR, inputs, {}), (logging.WARNING, "old", {}), shell)
     assert [len(line) for line in shown] == [22, LONGEST, 3]
-    assert lines((logging.INFO, "shell: bash", {}), verbose=True) == ["shell: bash"]
+    assert lines(shell, verbose=True) == ["shell: bash"]
 
 
 def test_a_failed_job_is_named_with_its_log_and_said_once(lines):
