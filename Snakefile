@@ -13,18 +13,19 @@ from bladerub.workflow.studies import rules_of_studies
 
 min_version("9.0")
 
-# Snakemake keeps no lines of files, which messages name: the config is read here, before it reads it
+# Snakemake keeps no lines of files, which messages name: the config is read here, before it reads it.
+# STUDY has it as models, for functions; `config` is plain, as Snakemake has it
 with bladerub.io.errors.exit_on_error():
-    study, NOTES, LAID_OVER = bladerub.workflow.settings.read(workflow, config)
+    STUDY, NOTES, LAID_OVER = bladerub.workflow.settings.read(workflow, config)
 
 
 configfile: "config/config.yaml"
 
 
 config.clear()
-config.update(study)
+config.update(STUDY.plain())
 RESULTS = config["results"]
-COATINGS = [case.name for case in coating_cases(config)]
+COATINGS = [case.name for case in coating_cases(STUDY)]
 
 
 RULES_OF_STUDIES, LEFT_OUT = rules_of_studies(ROOT)
@@ -34,13 +35,13 @@ RULES_OF_STUDIES, LEFT_OUT = rules_of_studies(ROOT)
 if workflow.is_main_process:
     with bladerub.io.errors.exit_on_error():
         bladerub.workflow.invocation.plan(
-            RESULTS, LAID_OVER, [*NOTES, *LEFT_OUT], solver_of(config).start
+            RESULTS, LAID_OVER, [*NOTES, *LEFT_OUT], solver_of(STUDY).start
         )
     if workflow.output_settings.dryrun:
         for forecast in plugins.loaded(
             "FORECASTS"
         ).values():  # they take seconds to import
-            forecast.announce_at_exit(config, workflow)
+            forecast.announce_at_exit(STUDY, workflow)
 
 
 onstart:
@@ -48,7 +49,7 @@ onstart:
         bladerub.workflow.invocation.start(workflow)
     for forecast in plugins.loaded("FORECASTS").values():
         forecast.announce(
-            config, workflow, workflow.resource_settings.cores, plan_of
+            STUDY, workflow, workflow.resource_settings.cores, plan_of
         )
 
 

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from bladerub.config.keys import Key, key_of
-from bladerub.config.models.study import whole
-from bladerub.config.units import choices_by_kind
+from bladerub.settings.study import whole
+from bladerub.settings.units import choices_by_kind
 
 _LONG = 60  # letters of a description that is written once
 HEAD = """\

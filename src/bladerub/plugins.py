@@ -26,7 +26,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``COSTS``       what further jobs of a coating cost: functions of config and coating that return a number of
                 runs at its speeds, by the name of the rule (`bladerub.workflow.cores`)
 ``SECTIONS``    keys of the config by their path, such as ``blade.source``, each with its type: a model
-                or an annotated type (`bladerub.config.fields`). One with a default is in every config,
+                or an annotated type (`bladerub.settings.fields`). One with a default is in every config,
                 and one below another that plugs in is a key of that. ``casings.<key>`` is a kind of
                 casing with that key
 ``AGREEMENTS``  functions that yield the problems of a config that has a section, by its name

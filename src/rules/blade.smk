@@ -14,7 +14,7 @@ def of_another_config(model):
     from bladerub.blade.files import is_built
 
     try:
-        is_current = not Path(model).exists() or is_built(config, Path(model))
+        is_current = not Path(model).exists() or is_built(STUDY, Path(model))
     except DamagedFile as error:
         return str(error)
     return None if is_current else f"{model}: of another config"
@@ -25,8 +25,8 @@ rule blade:
         replaces(workflow, REDUCED_MODEL, of_another_config),
         replaces(workflow, REDUCED_MODEL, damage),
         replaces(workflow, MESH, damage),
-        code=files_behind("blade.build", *filter(None, [place(config["blade"])])),
-        given=files(config["blade"]),
+        code=files_behind("blade.build", *filter(None, [place(STUDY.blade)])),
+        given=files(STUDY.blade),
     output:
         **described(rom_accuracy=f"{RESULTS}/blade/rom_accuracy.csv"),
         reduced_model=REDUCED_MODEL,

@@ -24,7 +24,7 @@ SPECTRA = {
 
 # What E = 1 is, a displacement that is large, and what is known of the rotor but the first frequency of its blade
 SCALES = {
-    "modulus_unit": modulus_unit(config),
+    "modulus_unit": modulus_unit(STUDY),
     "length": config["blade"]["length"],
     "engine": {"nominal_speed": config["figures"].get("nominal_speed")},
 }
@@ -32,9 +32,9 @@ SCALES = {
 # Speeds at which the displacement of both is kept: the paper's two, and those where this blade has its peaks
 BOTH = [
     f
-    for f in speeds(config)
-    if {STRAIGHT, INCLINED} <= set(coating_cases(config))
-    and all(keeps_history(config, case, f) for case in (STRAIGHT, INCLINED))
+    for f in speeds(STUDY)
+    if {STRAIGHT, INCLINED} <= set(coating_cases(STUDY))
+    and all(keeps_history(STUDY, case, f) for case in (STRAIGHT, INCLINED))
 ]
 OWN = [f_omega for f_omega in BOTH if f_omega not in (0.190, 0.197)]
 
@@ -53,7 +53,7 @@ def runs_at(f_omega):
 
 def part_of_run(case, part):
     """One part of what is simulated on a coating; looked up only for a figure that is planned."""
-    return lambda wildcards: asdict(getattr(run_spec(config, case, 0.0), part))
+    return lambda wildcards: asdict(getattr(run_spec(STUDY, case, 0.0), part))
 
 
 rule fig01_blade:
@@ -277,7 +277,7 @@ rule fig10_peaks:
     params:
         **SPECTRA,
         scales=SCALES,
-        peaks=lambda wildcards: peak_settings(config, SOFT.casing),
+        peaks=lambda wildcards: peak_settings(STUDY, SOFT.casing).plain(),
     script:
         "../scripts/fig10_peaks.py"
 
@@ -307,7 +307,7 @@ rule histograms:
         dpi=DPI,
         coatings=MODULI,
         figures=HISTOGRAMS,
-        modulus_unit=modulus_unit(config),
+        modulus_unit=modulus_unit(STUDY),
     script:
         "../scripts/histograms.py"
 
@@ -371,15 +371,15 @@ WITH_MODULI = any(
     and case.theta == 0
     and case.law == "theta"
     and not case.variant
-    for case in coating_cases(config)
-) and {4, 6} <= set(peak_orders(config, "2nd"))
+    for case in coating_cases(STUDY)
+) and {4, 6} <= set(peak_orders(STUDY, "2nd"))
 # Casings of which no figure of the paper shows a spectrum: that of each of their coatings is drawn, and its wear map
 SHOWN = {
     case.casing
     for case in (LOBED, SOFT, CRITICAL, STRAIGHT, INCLINED)
     if in_study(case)
 }
-OTHER = [case.name for case in coating_cases(config) if case.casing not in SHOWN]
+OTHER = [case.name for case in coating_cases(STUDY) if case.casing not in SHOWN]
 PLANNED = {
     "fig01_blade": True,
     "fig02_campbell": True,
@@ -392,7 +392,7 @@ PLANNED = {
     "histograms": WITH_MODULI,
     "histories": bool(BOTH),
     "fig19_wear_polar": in_study(STRAIGHT, INCLINED)
-    and {0.190, 0.197} <= set(speeds(config)),
+    and {0.190, 0.197} <= set(speeds(STUDY)),
 }
 # What `rule all` asks for
 FIGURES = [getattr(rules, name).output for name, needed in PLANNED.items() if needed]
@@ -401,9 +401,9 @@ FIGURES += [expand(rules.spectrum.output, coating=OTHER)]
 ON_OTHER_BLADE = "source" in config["blade"]
 WORN = [
     case.name
-    for case in coating_cases(config)
+    for case in coating_cases(STUDY)
     if not case.is_rigid and (ON_OTHER_BLADE or case.name in OTHER)
 ]
 FIGURES += [expand(rules.wear_map.output, coating=WORN)]
-CASINGS = used_casings(config) if ON_OTHER_BLADE else []
+CASINGS = used_casings(STUDY) if ON_OTHER_BLADE else []
 FIGURES += [expand(rules.casing.output, casing=CASINGS)]

@@ -3,9 +3,9 @@ from bladerub.study.orders import peak_orders, used_casings
 
 # What decides the table of the peaks: the orders of a casing of its own, if it has any, besides those of all
 PEAKS = config["analysis"]["peaks"] | {
-    name: peak_orders(config, name)
-    for name in used_casings(config)
-    if peak_orders(config, name) != config["analysis"]["peaks"]["orders"]
+    name: peak_orders(STUDY, name)
+    for name in used_casings(STUDY)
+    if peak_orders(STUDY, name) != config["analysis"]["peaks"]["orders"]
 }
 
 

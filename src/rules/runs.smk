@@ -14,7 +14,7 @@ from bladerub.workflow.cores import costs_of, priority_of, threads_for
 
 @cache
 def plan_of(coating):
-    return coating_plan(config, case_from_name(config, coating))
+    return coating_plan(STUDY, case_from_name(STUDY, coating))
 
 
 def planned_runs(wildcards):
@@ -30,7 +30,7 @@ def minutes_for(runs, attempt):
 
 @cache
 def job_costs():
-    return costs_of(config)
+    return costs_of(STUDY)
 
 
 def share_of_cores(cost):
@@ -40,7 +40,7 @@ def share_of_cores(cost):
 
 def coating_threads(wildcards):
     # also one that is run on request
-    return share_of_cores(job_costs().runs.get(wildcards.coating, len(speeds(config))))
+    return share_of_cores(job_costs().runs.get(wildcards.coating, len(speeds(STUDY))))
 
 
 def coating_priority(wildcards):
@@ -65,9 +65,9 @@ rule compile_kernel:
     params:
         solver=solver_digest(),
         tip_turns=config["contact"].get("tip_turns", False),
-        n_nodes=n_interface(config),
-        law=asdict(element_law(config)),
-        law_module=law_digest(element_law(config)),
+        n_nodes=n_interface(STUDY),
+        law=asdict(element_law(STUDY)),
+        law_module=law_digest(element_law(STUDY)),
     script:
         script_of("compile_kernel")
 
@@ -104,6 +104,6 @@ rule coating:
         lobe_prominence=config["analysis"]["lobe_prominence"],
         plan=lambda wildcards: plan_of(wildcards.coating),  # no reason to run, being an object
         planned=planned_runs,
-        confirmed=confirmation_determinants(config["analysis"]["divergence"]),
+        confirmed=confirmation_determinants(STUDY.analysis.divergence),
     script:
         "../scripts/coating.py"

@@ -10,14 +10,16 @@ from bladerub.blade.accuracy import doubts
 from bladerub.blade.build import build
 from bladerub.blade.built import write
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import typed
 
 logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")
 logging.getLogger("bladerub").setLevel(logging.INFO)
 
 # of the study, or of a sample of the robustness
-config = {**snakemake.config, "blade": snakemake.params.blade, "reduction": snakemake.params.reduction}
+plain = {**snakemake.config, "blade": snakemake.params.blade, "reduction": snakemake.params.reduction}
+config = typed(plain)
 files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "rom_accuracy")}
 built = build(config)
-write(built, provenance(config), **files)
-for doubt in doubts(built.accuracy, config["figures"].get("nominal_speed")):
+write(built, provenance(plain), **files)
+for doubt in doubts(built.accuracy, config.figures.nominal_speed):
     job.print_doubt(f"{files['reduced_model']}: {doubt}")

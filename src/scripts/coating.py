@@ -7,18 +7,19 @@ job.log_to(snakemake.log[0])
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
+from bladerub.settings.study import typed
 from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import build_map
 from bladerub.workflow.progress import of_job
 
-plan = snakemake.params.plan
+config, plan = typed(snakemake.config), snakemake.params.plan
 folder = Path(snakemake.params.folder)
 progress = of_job(folder.name, folder)
 blade = read_reduced_blade(snakemake.input.blade)
 rows = compute_missing(
-    snakemake.config,
+    config,
     plan,
     blade,
     folder,
@@ -27,6 +28,6 @@ rows = compute_missing(
     threads=snakemake.threads,
 )
 if path := snakemake.output.get("map"):  # rows of blades have none
-    build_map(snakemake.config, plan.case, blade, folder, rows, path)
+    build_map(config, plan.case, blade, folder, rows, path)
 write_manifest(snakemake.output.manifest, rows)
 progress.finish(rows)

@@ -4,11 +4,13 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
+from bladerub.settings.study import typed
 from bladerub.study import divergence
 from bladerub.study.grid import modulus_unit
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
-table = divergence.table(snakemake.config, map(read_map, snakemake.input.maps))
-units = {"modulus_unit": modulus_unit(snakemake.config), "rpm": outputs.rpm(snakemake, table.f_omega)}
+config = typed(snakemake.config)
+table = divergence.table(config, map(read_map, snakemake.input.maps))
+units = {"modulus_unit": modulus_unit(config), "rpm": outputs.rpm(snakemake, table.f_omega)}
 outputs.save(snakemake, table=table.assign(**units))

@@ -9,7 +9,7 @@ def common_maps(wildcards):
     """Maps of the coatings that the reference has too, first all of this study, then all of the reference."""
     names = [
         case.name
-        for case in coating_cases(config)
+        for case in coating_cases(STUDY)
         if Path(f"{REFERENCE}/maps/{case.name}.h5").exists()
     ]
     return [

@@ -7,7 +7,7 @@ from bladerub.extras.chart.plan import columns, in_words
 from bladerub.extras.chart.point import PointRow
 from bladerub.study.grid import modulus_unit
 
-CHART_ORDERS = chart_orders(config)
+CHART_ORDERS = chart_orders(STUDY)
 PEAK_CAPTIONS = {
     f"{name}{order}": f"chart_{name}k" for order in CHART_ORDERS for name in "Yf"
 }
@@ -18,10 +18,10 @@ CHARTED = [*PEAK_CAPTIONS, "peak", "worn_volume", "divergent_share"]
 def chart_columns():
     """The points of every column; checked, and told of, only when somebody asks for the chart."""
     with bladerub.io.errors.exit_on_error():
-        check(config)
+        check(STUDY)
         if workflow.is_main_process:
-            print(f"bladerub: {in_words(config)}", file=sys.stderr)
-    return columns(config)
+            print(f"bladerub: {in_words(STUDY)}", file=sys.stderr)
+    return columns(STUDY)
 
 
 def chart_manifests(wildcards):
@@ -32,7 +32,7 @@ def planned_points(wildcards):
     """All that determines the points of a column but the blade: a changed one is a reason to run."""
     from bladerub.extras.chart.column import plan_column  # imports the solver
 
-    return plan_column(config, chart_columns()[wildcards.column])
+    return plan_column(STUDY, chart_columns()[wildcards.column])
 
 
 def chart_with_stress(wildcards):
@@ -49,7 +49,7 @@ def charted_maps(wildcards):
     chart = config["chart"]
     return [
         map_of(case)
-        for case in coating_cases(config)
+        for case in coating_cases(STUDY)
         if not (case.is_rigid or case.variant)
         and case.casing == chart["casing"]
         and case.theta in chart["theta"]
@@ -139,7 +139,7 @@ rule chart_maps:
     params:
         dpi=DPI,
         quantities=CHARTED,
-        modulus_unit=modulus_unit(config),
+        modulus_unit=modulus_unit(STUDY),
     script:
         "scripts/chart_maps.py"
 
@@ -163,7 +163,7 @@ rule chart_choice:
         f"{RESULTS}/logs/chart_choice.log",
     params:
         dpi=DPI,
-        modulus_unit=modulus_unit(config),
+        modulus_unit=modulus_unit(STUDY),
         limits=config["chart"]["limits"],
     script:
         "scripts/chart_choice.py"
@@ -199,7 +199,7 @@ rule chart_peaks:
     params:
         dpi=DPI,
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
-        modulus_unit=modulus_unit(config),
+        modulus_unit=modulus_unit(STUDY),
     script:
         "scripts/chart_peaks.py"
 

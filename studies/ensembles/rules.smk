@@ -102,7 +102,7 @@ rule peak_bands:
     params:
         dpi=DPI,
         coatings=MODULI,
-        modulus_unit=modulus_unit(config),
+        modulus_unit=modulus_unit(STUDY),
     script:
         "scripts/peak_bands.py"
 

@@ -33,7 +33,7 @@ rule explorer:
             "amplitude_range": config["figures"]["amplitude_range"],
             "growth_revolutions": config["analysis"]["divergence"]["revolutions"],
             "spectrum_revolutions": config["analysis"]["spectrum_revolutions"],
-            "modulus_unit": modulus_unit(config),
+            "modulus_unit": modulus_unit(STUDY),
         },
         nominal_speed=config["figures"].get("nominal_speed"),
         configs=[

@@ -1,7 +1,7 @@
 # Coulomb friction compared with a contact force of constant direction, on the coatings listed for it. Not part of `all`.
 from bladerub.extras.friction.coatings import compared
 
-COMPARED = [case.name for case in compared(config)]
+COMPARED = [case.name for case in compared(STUDY)]
 
 
 rule friction:

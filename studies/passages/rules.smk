@@ -1,7 +1,7 @@
 # Speed sweeps and long runs, compared with the study (studies/passages/README.md). Not part of `all`.
 from bladerub.extras.passages.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
 
-SWEPT = [case.name for case in swept_cases(config)]
+SWEPT = [case.name for case in swept_cases(STUDY)]
 SWEEPS = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
 RATES = [f"{rate:g}" for rate in config["sweeps"]["rates"]]
 
@@ -17,8 +17,8 @@ def swept_maps(wildcards):
 
 def planned_sweep(wildcards):
     """All that determines a sweep but the blade: a changed one is a reason to run."""
-    case = case_from_name(config, wildcards.coating)
-    return asdict(sweep_spec(config, case, wildcards.direction, float(wildcards.rate)))
+    case = case_from_name(STUDY, wildcards.coating)
+    return asdict(sweep_spec(STUDY, case, wildcards.direction, float(wildcards.rate)))
 
 
 rule sweeps:

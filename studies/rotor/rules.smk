@@ -11,14 +11,14 @@ OF_ROWS = f"{RESULTS}/{RUNS.as_posix()}"
 def rotor_plan():
     """The plan; read and checked only when somebody asks for the rows."""
     with bladerub.io.errors.exit_on_error():
-        return read_plan(ROTOR, config)
+        return read_plan(ROTOR, STUDY)
 
 
 @cache
 def rotor_runs(combination):
     """The draws of a combination, as planned runs."""
     with bladerub.io.errors.exit_on_error():
-        return rotor_plan().runs(config, combination)
+        return rotor_plan().runs(STUDY, combination)
 
 
 def planned_rows(wildcards):

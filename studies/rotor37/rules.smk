@@ -40,8 +40,8 @@ def rotor37_numbers(wildcards):
 
 
 def rotor37_set(wildcards):
-    """The config of one set: a changed one is a reason to run."""
-    return rotor37_plan()[wildcards.set]
+    """The config of one set, plain: a changed one is a reason to run."""
+    return rotor37_plan()[wildcards.set].plain()
 
 
 # By an integrator of its own: also a check of the numbers of direct contact
@@ -58,7 +58,7 @@ rule rotor37_independent:
     resources:
         runtime=minutes(10),
     params:
-        config=lambda wildcards: rotor37_plan()["reference"],
+        config=lambda wildcards: rotor37_plan()["reference"].plain(),
     script:
         "scripts/rotor37_independent.py"
 
@@ -100,7 +100,7 @@ rule rotor37_nlstep_case:
     resources:
         runtime=minutes(30),
     params:
-        config=lambda wildcards: rotor37_plan()["reference"],
+        config=lambda wildcards: rotor37_plan()["reference"].plain(),
     script:
         "scripts/rotor37_nlstep_case.py"
 
@@ -114,7 +114,7 @@ rule rotor37_nlstep:
     log:
         f"{RESULTS}/logs/rotor37_nlstep.log",
     params:
-        config=lambda wildcards: rotor37_plan()["reference"],
+        config=lambda wildcards: rotor37_plan()["reference"].plain(),
     script:
         "scripts/rotor37_nlstep.py"
 
@@ -142,7 +142,9 @@ rule rotor37:
     params:
         dpi=DPI,
         folder=ROTOR37,
-        plan=lambda wildcards: rotor37_plan(),
+        plan=lambda wildcards: {
+            name: own.plain() for name, own in rotor37_plan().items()
+        },
     script:
         "scripts/rotor37.py"
 

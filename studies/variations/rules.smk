@@ -20,7 +20,7 @@ def variations_plan(kind):
         key = kind if kind in config else None
         plan = read(kind, PLANS[kind], key)
         if workflow.is_main_process:
-            check(config, plan)
+            check(STUDY, plan)
     return plan
 
 
@@ -35,7 +35,7 @@ def determining_sets(kind, job):
 
     plan = variations_plan(kind)
     with bladerub.io.errors.exit_on_error():
-        return determinants(config, plan, plan.jobs()[job])
+        return determinants(STUDY, plan, plan.jobs()[job])
 
 
 def of_jobs(kind, file, *folders):
@@ -69,7 +69,7 @@ def variation_minutes(wildcards, attempt):
     from bladerub.extras.variations.job import minutes
 
     plan = variations_plan(wildcards.kind)
-    return attempt * minutes(config, plan, plan.jobs()[wildcards.job])
+    return attempt * minutes(STUDY, plan, plan.jobs()[wildcards.job])
 
 
 use rule compile_kernel as identification_kernel with:

@@ -1,22 +1,22 @@
-import copy
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from blade_parts import TWISTED, section
 
-from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.elasticity import Solid
 from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.settings.blade import Material
 
 
 @pytest.fixture
 def blade_config():
-    return copy.deepcopy(TWISTED | {"sections": [section(0.0), section(1.0)]})
+    return TWISTED.replaced("sections", [section(0.0), section(1.0)])
 
 
 @pytest.fixture
 def twisted_config():
-    return copy.deepcopy(TWISTED)
+    return TWISTED
 
 
 @pytest.fixture(scope="session")
@@ -35,7 +35,7 @@ def make_block():
         lattice = (np.linspace(0, 1, n + 1) for n in counts)
         mesh, parameters = (make_mesh or hexahedral_mesh)(*lattice, points)
         clamped = np.flatnonzero(parameters[2] == 0) if clamp_bottom else ()
-        return Solid(mesh, Material(2e11, poisson, 7800.0), clamped)
+        return Solid(mesh, Material(young_modulus=2e11, poisson_ratio=poisson, density=7800.0), clamped)
 
     return make
 

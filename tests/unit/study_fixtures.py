@@ -1,13 +1,15 @@
-import copy
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from bladerub.config.read import load
+from bladerub.config.errors import UNKNOWN
+from bladerub.config.files import Located
+from bladerub.config.read import read, vary
 from bladerub.contact.result import Energy, RunResult
 from bladerub.io.folders import ROOT
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import typed
 from bladerub.study import store
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.job import compute_missing
@@ -15,12 +17,17 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.plan import coating_plan
 
 N_ELEMENTS = 2000
-CONFIG = load(ROOT / "config" / "config.yaml")
+CONFIG = read(ROOT / "config" / "config.yaml")
+
+
+def changed(config, **sections):
+    """Lay sections over those of a config."""
+    return typed(vary(config, Located.of(sections, UNKNOWN)).plain())
 
 
 @pytest.fixture
 def config():
-    return copy.deepcopy(CONFIG)
+    return CONFIG
 
 
 @pytest.fixture
@@ -170,8 +177,8 @@ def write_run(tmp_path, spec, case, config, make_result):
 
     def write(name="0.1900.h5", key="key", result=None, history=False, spec=spec, case=case, **made):
         result = result or make_result(**made)
-        stored = store.stored_run(case, spec, result, key, config["analysis"], history)
-        store.write_run(tmp_path / name, stored, provenance(config))
+        stored = store.stored_run(case, spec, result, key, config.analysis, history)
+        store.write_run(tmp_path / name, stored, provenance(config.plain()))
         return tmp_path / name
 
     return write
@@ -179,13 +186,12 @@ def write_run(tmp_path, spec, case, config, make_result):
 
 @pytest.fixture
 def study(config):
-    config["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.1, "extra": [0.19]}
-    return config
+    return changed(config, speeds={"start": 0.1, "stop": 0.3, "step": 0.1, "extra": [0.19]})
 
 
 @pytest.fixture
 def compute(study, case, tmp_path):
-    def run(digest="blade", **arguments):
+    def run(digest="blade", study=study, **arguments):
         return compute_missing(study, coating_plan(study, case), None, tmp_path, digest, **arguments)
 
     return run

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from study_fixtures import *  # noqa: F403 (fixtures)
+from study_fixtures import changed
 
 from bladerub.api.map import Map
 from bladerub.extras.explorer.page import build
@@ -72,9 +73,7 @@ def angle():
 @pytest.fixture
 def study(config):
     grid = {"start": 0.05, "stop": 0.4, "step": 0.05, "extra": [0.19, 0.197]}
-    config |= {"coatings": QUICK, "speeds": grid}
-    config["analysis"]["histories"] = []
-    return config
+    return changed(config, coatings=QUICK, speeds=grid, analysis={"histories": []})
 
 
 @pytest.fixture
@@ -132,8 +131,8 @@ def test_every_figure_and_page_is_made(study, sound, kind, accuracy, tmp_path):
     figures = [wear_profiles([each for each in maps if each.case.E == 2], [0.19, 0.197])[1]]
     for coating in maps[-2:]:
         sections = []
-        for order in settings["orders"]:
-            amplitude = order_amplitude(coating, order, settings["order_halfwidth"])
+        for order in settings.orders:
+            amplitude = order_amplitude(coating, order, settings.order_halfwidth)
             window, found = speed_window(coating, order, settings), peak(coating, order, settings)
             sections.append(PeakSection(order, amplitude, window, found))
         figures += [wear_map(coating), spectrum_map(coating, RANGE, 2.0), Map(coating).plot_spectrum()]

@@ -7,14 +7,16 @@ import subprocess
 import sys
 
 import pytest
+from blade_parts import TWISTED
 
 import bladerub as br
 from bladerub import plugins
 from bladerub.blade.source import reader
 from bladerub.cli import main
-from bladerub.config.models.study import required
+from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import PACKAGE, ROOT
+from bladerub.settings.study import required
 
 PROGRAM = """
 import sys
@@ -25,7 +27,7 @@ from bladerub.config.read import read
 study, mine = sys.argv[1:]
 print(*parser()._subparsers._group_actions[0].choices)
 print(*dir(bladerub))
-print(*read(study))
+print(*read(study).plain())
 try:
     read(study, mine)
 except ConfigError as error:
@@ -94,4 +96,4 @@ def test_what_a_plugin_names_and_is_not_there_is_refused_in_a_line(place):
 def test_a_source_of_blades_lacks_no_function(monkeypatch):
     monkeypatch.setattr(plugins, "offered", lambda kind: {"file": "contact.law"})
     with pytest.raises(BadInput, match=r"^bladerub\.contact\.law: has no problems, recipe, files, build,"):
-        reader({"source": {"file": "blade.stl"}})
+        reader(TWISTED.replaced("source", Source(file="blade.inp")))

@@ -1,32 +1,31 @@
 import pytest
 
 from bladerub.blade.build import build
-from bladerub.config.read import load
+from bladerub.config.read import read
 from bladerub.contact.run import simulate
 from bladerub.io.folders import ROOT
+from bladerub.settings.blade import Mesh
 from bladerub.study.grid import CoatingCase, run_spec
 from tests.unit.stand_in import change  # noqa: F401 (fixture)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def paper_config():
-    """The paper's study, to change at will."""
-    return load(ROOT / "config" / "config.yaml")
+    """The paper's study."""
+    return read(ROOT / "config" / "config.yaml")
 
 
 @pytest.fixture(scope="session")
-def built():
+def built(paper_config):
     """The default blade as it is built for the paper's study."""
-    return build(load(ROOT / "config" / "config.yaml"))
+    return build(paper_config)
 
 
 @pytest.fixture(scope="session")
-def coarse_config():
+def coarse_config(paper_config):
     """The paper's study on a coarse mesh of the same blade, which is built in a second."""
-    config = load(ROOT / "config" / "config.yaml")
-    config["blade"]["mesh"] = {"chordwise": 8, "thickness": 2, "spanwise": 8}
-    config["reduction"].update(accuracy_speeds=2, accuracy_modes=7)
-    return config
+    coarse = paper_config.replaced("blade.mesh", Mesh(chordwise=8, thickness=2, spanwise=8))
+    return coarse.replaced("reduction.accuracy_speeds", 2).replaced("reduction.accuracy_modes", 7)
 
 
 @pytest.fixture(scope="session")

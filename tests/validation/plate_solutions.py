@@ -9,8 +9,13 @@ import numpy as np
 from numpy.polynomial import Legendre
 from scipy.linalg import eigh
 
-from bladerub.blade.elasticity import Solid
+from bladerub.blade.elasticity import Solid, lame
 from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.settings.blade import Material
+
+
+def isotropic(young, poisson, density):
+    return Material.model_construct(young_modulus=young, poisson_ratio=poisson, density=density)
 
 
 def clamped(points, counts, material, grading=1.0):
@@ -74,8 +79,8 @@ def ritz(points, material, n_modes, terms=(9, 3, 11)):
     volume = (weight * np.linalg.det(jacobian))[:, None]
     shape = products(0, 0, 0)
     product = np.array([[(left * volume).T @ right for right in gradient] for left in gradient])
-    lame, shear = material.lame
-    stiffness = lame * product + shear * product.swapaxes(0, 1)
+    first, shear = lame(material)
+    stiffness = first * product + shear * product.swapaxes(0, 1)
     stiffness[range(3), range(3)] += shear * np.trace(product)
     mass = material.density * np.kron(np.eye(3), (shape * volume).T @ shape)
     blocks = np.block([list(row) for row in stiffness])

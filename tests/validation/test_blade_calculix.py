@@ -15,27 +15,27 @@ import numpy as np
 import pytest
 
 from bladerub.blade.build import build
-from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape, lattice
-from bladerub.config.read import load
+from bladerub.config.read import read
+from bladerub.extras.blades.settings import Source
 from bladerub.extras.export.calculix import deck, frequencies, write_decks
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.stress.nodal import NodalStress, running_displacement, von_mises
 from bladerub.io.folders import ROOT
+from bladerub.settings.blade import Mesh
 from tests.unit.blade_parts import tetrahedral_mesh
 
 CCX = shutil.which("ccx")
 SPEEDS = [0.0, 0.2, 0.4]
-MATERIAL = Material.from_config(load(ROOT / "config" / "config.yaml")["blade"]["material"])
+MATERIAL = read(ROOT / "config" / "config.yaml").blade.material
 
 pytestmark = pytest.mark.skipif(CCX is None, reason="CalculiX (ccx) is not installed")
 
 
 @pytest.fixture
 def config(paper_config):
-    paper_config["blade"]["mesh"] = {"chordwise": 14, "thickness": 1, "spanwise": 10}
-    paper_config["reduction"]["accuracy_speeds"] = len(SPEEDS)
-    return paper_config
+    coarser = paper_config.replaced("blade.mesh", Mesh(chordwise=14, thickness=1, spanwise=10))
+    return coarser.replaced("reduction.accuracy_speeds", len(SPEEDS))
 
 
 def calculix(folder, name):
@@ -63,12 +63,12 @@ def test_frequencies_of_hexahedra_agree(config, tmp_path):
 
 
 def test_frequencies_of_tetrahedra_agree(config, tmp_path):
-    lattice_of = lattice({"chordwise": 10, "thickness": 1, "spanwise": 12})
-    mesh, _ = tetrahedral_mesh(*lattice_of, BladeShape.from_config(config["blade"]).points)
+    lattice_of = lattice(Mesh(chordwise=10, thickness=1, spanwise=12))
+    mesh, _ = tetrahedral_mesh(*lattice_of, BladeShape.from_config(config.blade).points)
     write_mesh_file(tmp_path / "blade.vtu", mesh.points, mesh.cells, {})
-    blade = config["blade"] | {"source": {"file": str(tmp_path / "blade.vtu")}}
+    config = config.replaced("blade.source", Source(file=str(tmp_path / "blade.vtu")))
     # Its mass has fewer integration points than ours; with the same ones all are within 2e-7.
-    assert max(largest_differences(config | {"blade": blade}, tmp_path)) < 5e-4
+    assert max(largest_differences(config, tmp_path)) < 5e-4
 
 
 def deck_of(mesh, omega):

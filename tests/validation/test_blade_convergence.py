@@ -12,9 +12,9 @@ import pytest
 from free_vibration import frequencies
 from scipy.optimize import brentq
 
-from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
+from bladerub.settings.blade import Mesh
 
 pytestmark = pytest.mark.slow
 
@@ -24,12 +24,11 @@ FINENESS = np.array([0.5, 1.0, 1.5])  # over the config's mesh, in all three dir
 def of_meshes(blade):
     """Frequencies f1 to f3 on each mesh, Hz."""
     shape = BladeShape.from_config(blade)
-    material = Material.from_config(blade["material"])
     rows = []
     for fineness in FINENESS:
-        counts = {key: round(fineness * count) for key, count in blade["mesh"].items()}
-        mesh = BladeMesh.from_shape(shape, counts)
-        rows.append(frequencies(mesh.mesh, mesh.root, material, 3))
+        counts = {key: round(fineness * count) for key, count in blade.mesh.plain().items()}
+        mesh = BladeMesh.from_shape(shape, Mesh(**counts))
+        rows.append(frequencies(mesh.mesh, mesh.root, blade.material, 3))
     return np.array(rows)
 
 
@@ -44,7 +43,7 @@ def observed_order(coarse, middle, fine):
 
 
 def test_frequencies_converge_at_the_order_of_the_clamped_edge_or_better_and_are_near_the_limit(paper_config):
-    found = of_meshes(paper_config["blade"])
+    found = of_meshes(paper_config.blade)
     fine, finest = found[1:]
     order = np.array([observed_order(*mode) for mode in found.T])
     print("observed order of f1 to f3:", np.round(order, 2))

@@ -10,7 +10,6 @@ use their blade). Direct contact is compared with NLstep (Monjaraz-Tec, Gross an
 GNU Octave must be installed.
 """
 
-import copy
 from dataclasses import replace
 from pathlib import Path
 
@@ -29,6 +28,7 @@ from bladerub.extras.verification import impact
 from bladerub.extras.verification.compare import compare
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import BENCHMARKS
+from bladerub.settings.blade import Mesh
 
 FILE = Path(__file__).parent / "rotor37_sections.dat"
 
@@ -40,7 +40,7 @@ def table():
 
 @pytest.fixture(scope="module")
 def imported():
-    return import_blade(Source(FILE, Frame("cm")), {"chordwise": 14, "thickness": 2, "spanwise": 20})
+    return import_blade(Source(FILE, Frame("cm")), Mesh(chordwise=14, thickness=2, spanwise=20))
 
 
 def test_only_the_tips_of_the_round_edges_are_cut(imported):
@@ -82,8 +82,9 @@ impact._march.enable_caching()  # as in test_finer_elements.py: one of both comp
 
 def compared(folder, stiffness=1.0):
     """Compute the numbers on the coarser mesh, with so many times the stiffness, and compare them."""
-    config = copy.deepcopy(reference.plan()["mesh"])
-    config["blade"]["material"]["young_modulus"] *= stiffness
+    config = reference.plan()["mesh"]
+    young_modulus = stiffness * config.blade.material.young_modulus
+    config = config.replaced("blade.material.young_modulus", young_modulus)
     blade = build(config).reduced
     numbers.of_blade(config, blade).to_csv(folder / "blade.csv", index=False)
     direct.numbers(direct.runs(config, blade)).to_csv(folder / "direct.csv", index=False)

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from free_vibration import frequencies
 
-from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.extras.blades.importing import import_blade
@@ -45,15 +44,15 @@ def write_tetrahedra(path, shape, size):
 
 
 def test_eight_frequencies_are_those_of_hexahedra(paper_config, tmp_path):
-    config = paper_config["blade"]
-    shape, material = BladeShape.from_config(config), Material.from_config(config["material"])
+    config = paper_config.blade
+    shape = BladeShape.from_config(config)
     write_tetrahedra(tmp_path / "blade.msh", shape, 0.008)
-    imported = import_blade(Source(tmp_path / "blade.msh", root_set="root", tip_set="tip"), {})
-    by_rule = import_blade(Source(tmp_path / "blade.msh"), {}).blade.mesh
+    imported = import_blade(Source(tmp_path / "blade.msh", root_set="root", tip_set="tip"), config.mesh)
+    by_rule = import_blade(Source(tmp_path / "blade.msh"), config.mesh).blade.mesh
     np.testing.assert_array_equal(by_rule.root, imported.blade.mesh.root)
     np.testing.assert_array_equal(by_rule.tip, imported.blade.mesh.tip)
-    blades = (imported.blade.mesh, BladeMesh.from_shape(shape, config["mesh"]))
-    tetrahedra, hexahedra = (frequencies(blade.mesh, blade.root, material) for blade in blades)
+    blades = (imported.blade.mesh, BladeMesh.from_shape(shape, config.mesh))
+    tetrahedra, hexahedra = (frequencies(blade.mesh, blade.root, config.material) for blade in blades)
     difference = np.abs(tetrahedra / hexahedra - 1).max()
     print(f"{imported.blade.mesh.mesh.t.shape[1]} tetrahedra: largest difference {difference:.1e}")
     assert difference < 5e-3

@@ -7,6 +7,7 @@ import pytest
 from bladerub.blade.build import build
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
+from bladerub.settings.blade import Mesh
 
 STEPS = 400
 
@@ -14,9 +15,9 @@ STEPS = 400
 @pytest.fixture(scope="module", params=[5, 12, pytest.param(19, marks=pytest.mark.nightly)])
 def wide(request, coarse_config):
     """The default blade with so many interface nodes, on another coarse mesh."""
-    blade = coarse_config["blade"] | {"mesh": {"chordwise": 20, "thickness": 2, "spanwise": 4}}
-    reduction = coarse_config["reduction"] | {"accuracy_modes": 4, "interface_nodes": request.param}
-    return build({"blade": blade, "reduction": reduction}).reduced
+    other = coarse_config.replaced("blade.mesh", Mesh(chordwise=20, thickness=2, spanwise=4))
+    nodes = other.replaced("reduction.interface_nodes", request.param)
+    return build(nodes.replaced("reduction.accuracy_modes", 4)).reduced
 
 
 @pytest.mark.parametrize("turns", [pytest.param(False, marks=pytest.mark.nightly), True])

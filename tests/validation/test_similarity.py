@@ -1,6 +1,5 @@
 """A blade similar to the stand-in, of another size and material: what it does in contact must be similar."""
 
-import copy
 from dataclasses import replace
 
 import numpy as np
@@ -9,20 +8,22 @@ import pytest
 from bladerub.blade.build import build
 from bladerub.contact.run import simulate
 from bladerub.extras.blades import similarity
+from bladerub.extras.blades.settings import Scale
+from bladerub.settings.study import typed
 from bladerub.study.grid import CoatingCase, run_spec
 
 
 def similar(config):
     """The blade at 0.37 of its size, of steel instead of titanium."""
-    config = copy.deepcopy(config)
-    blade = config["blade"]
+    values = config.plain()
+    blade = values["blade"]
     blade["hub_radius"] *= 0.37
     blade["length"] *= 0.37
     for section in blade["sections"]:
         for name in ("chord", "sweep", "lean"):
             section[name] *= 0.37
     blade["material"] = {"young_modulus": 2.1e11, "poisson_ratio": 0.32, "density": 7850.0}
-    return config
+    return typed(values)
 
 
 def test_a_similar_blade_rubs_alike_in_its_own_units(coarse_config, coarse_blade, monkeypatch):
@@ -35,7 +36,7 @@ def test_a_similar_blade_rubs_alike_in_its_own_units(coarse_config, coarse_blade
     assert scale["length"] == pytest.approx(0.37)
     assert scale["modulus"] == pytest.approx(2.1 / 1.1, rel=1e-7)
     assert scale["time"] == pytest.approx(0.37 * np.sqrt(7850 / 4430 * 1.1 / 2.1), rel=1e-7)
-    similar_config["contact"]["scale"] = scale
+    similar_config = similar_config.replaced("contact.scale", Scale(**scale))
     case = CoatingCase("2nd", 2.0, 0.5, 0.15)
     first, second = (
         simulate(model, run_spec(config, case, 0.2))

@@ -3,9 +3,10 @@
 import pytest
 
 from bladerub.blade.build import meshed_blade
-from bladerub.config.read import load
+from bladerub.config.read import read
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io import hdf5
+from bladerub.settings.blade import Mesh
 
 PICTURE = "results/figures/fig01_blade.png"
 
@@ -13,9 +14,8 @@ PICTURE = "results/figures/fig01_blade.png"
 @pytest.fixture
 def foreign(workspace, tiny):
     """Overlay of a study whose blade is the default one, in mm."""
-    blade = load(workspace.folder / "config" / "config.yaml")["blade"]
-    blade["mesh"] = {"chordwise": 7, "thickness": 1, "spanwise": 4}
-    mesh = meshed_blade(blade).mesh.mesh
+    blade = read(workspace.folder / "config" / "config.yaml").blade
+    mesh = meshed_blade(blade.replaced("mesh", Mesh(chordwise=7, thickness=1, spanwise=4))).mesh.mesh
     write_mesh_file(workspace.folder / "meshes" / "blade.msh", 1e3 * mesh.points, mesh.cells, {})
     tiny["blade"]["source"] = {"file": "meshes/blade.msh", "unit": "mm"}
     return tiny
@@ -32,7 +32,7 @@ def test_a_blade_from_a_file_is_made_and_drawn_and_made_anew_with_the_file(works
 
 
 def test_a_study_of_it_draws_wear_maps_casings_and_on_those_of_its_own_spectra(workspace, foreign):
-    casing = load(workspace.folder / "config" / "config.yaml")["casings"]["2nd"]
+    casing = read(workspace.folder / "config" / "config.yaml").casings["2nd"].plain()
     foreign["casings"] = {"own": casing | {"nodal_diameters": [3]}}
     entry = {"E": [2, 5], "K": [0.5], "theta": [0.0]}
     foreign["coatings"] = [{"casing": name} | entry for name in ("2nd", "own")]

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -24,11 +24,12 @@ from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.config.quantities import number, references
-from bladerub.config.units import speed_in_words
 from bladerub.io import tables
 from bladerub.io.equality import equal
 from bladerub.io.optional import package
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
+from bladerub.settings.units import speed_in_words
 from bladerub.study.cache import blade_digest
 
 if TYPE_CHECKING:
@@ -116,7 +117,7 @@ class Blade(Shown):
         A list of speeds gives a list. Raises `InputError` if one is no speed.
         """
         try:
-            return float(number("f_omega", speed, references({}, self.f1_hz)))
+            return float(number("f_omega", speed, references(None, self.f1_hz)))
         except ValueError as error:
             raise InputError("speed", speed, str(error)) from None
 
@@ -238,15 +239,15 @@ def build_blade(study: Study, progress: bool | None = None) -> Blade:
         with step("building the blade", progress):
             write_blade(study.config, path)
     blade = read_blade(path)
-    for line in blade.doubts(study.config["figures"].get("nominal_speed")):
+    for line in blade.doubts(study.config.figures.nominal_speed):
         warnings.warn(line, stacklevel=2)
     return blade
 
 
-def write_blade(config: Mapping[str, Any], path: Path) -> None:
+def write_blade(config: Config, path: Path) -> None:
     """Build the blade of `config` and write it to `path`, its mesh and table of accuracy next to it."""
     # they import scikit-fem and the solver, which a blade that is built already does without
     from bladerub.blade.build import build
     from bladerub.blade.built import write
 
-    write(build(config), provenance(config), *paths(path))
+    write(build(config), provenance(config.plain()), *paths(path))

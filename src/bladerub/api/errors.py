@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from bladerub.config.errors import format_value
-from bladerub.io.errors import BadInput
+from bladerub.io.errors import BadInput, format_value
 
 
 class InputError(BadInput):

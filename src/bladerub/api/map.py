@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -19,10 +19,11 @@ from bladerub.api.planned import Quantity, StudyCoating, StudyRun
 from bladerub.api.progress import bar, step
 from bladerub.api.run import Run
 from bladerub.api.study import settings_of
-from bladerub.config.units import speeds_in_words
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.hdf5 import read_attributes
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
+from bladerub.settings.units import speeds_in_words
 from bladerub.study import maps
 from bladerub.study.divergence import in_a_word, verdicts
 from bladerub.study.grid import CoatingCase
@@ -54,7 +55,7 @@ class Map(Shown):
         speeds normalised.
     f1_hz : float, optional
         First frequency of the blade at rest, Hz, for what is shown in rpm and Hz.
-    config : mapping, optional
+    config : Config, optional
         That of its study, if it was simulated here.
 
     Examples
@@ -76,7 +77,7 @@ class Map(Shown):
 
     coating: CoatingMap
     f1_hz: float | None = field(default=None, compare=False)
-    config: Mapping[str, Any] | None = field(default=None, compare=False)
+    config: Config | None = field(default=None, compare=False)
 
     @property
     def case(self) -> CoatingCase:
@@ -126,7 +127,7 @@ class Map(Shown):
         """Return all arrays with coordinates, units and names."""
         return to_dataset(maps.variables(self.coating), asdict(self.case))
 
-    def to_pandas(self, config: Mapping[str, Any] | None = None) -> pd.DataFrame:
+    def to_pandas(self, config: Config | None = None) -> pd.DataFrame:
         """Return a row for each speed, judged by the settings of a `config` as of `Run.verdict`.
 
         Columns: ``rpm`` (NaN where the blade is not known), ``C1`` (first eigenfrequency, normalised),
@@ -150,12 +151,12 @@ class Map(Shown):
         }
         return pd.DataFrame(columns, index=pd.Index(self.f_omega, name="f_omega"))
 
-    def write(self, path: str | Path, config: Mapping[str, Any] | None = None) -> None:
+    def write(self, path: str | Path, config: Config | None = None) -> None:
         """Write the map to the HDF5 file `path`, whole or not at all; `config` as of `Run.verdict`.
 
         Raises OSError, which names the file, if it cannot be written.
         """
-        maps.write_map(path, self.coating, provenance(settings_of(config, self.config)))
+        maps.write_map(path, self.coating, provenance(settings_of(config, self.config).plain()))
 
     @property
     def _scales(self) -> "Scales":
@@ -241,7 +242,7 @@ def simulate_speeds(
     results = solve_all(blade, runs, jobs, follow, progress)
     stored = [run.stored for run in results]
     longer = [run.longer.stored if run.longer else None for run in results]
-    f_omega, prominence = [run.f_omega for run in runs], coating.config["analysis"]["lobe_prominence"]
+    f_omega, prominence = [run.f_omega for run in runs], coating.config.analysis.lobe_prominence
     C1 = maps.first_frequency(blade.reduced, f_omega)
     collected = maps.collect(coating.case, f_omega, C1, stored, longer, prominence)
     return Map(collected, blade.f1_hz, coating.config)

@@ -1,18 +1,17 @@
 """What can be asked of a study: one of its coatings, and one run."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 from bladerub.api.errors import InputError
 from bladerub.api.lists import over
 from bladerub.blade.cache import kept_frequency
 from bladerub.config import quantities
 from bladerub.config.checks import most_revolutions
-from bladerub.config.models.quantities import QUANTITIES
 from bladerub.config.problems import check_quantity
-from bladerub.config.units import pressure_in_words, speed_in_words
 from bladerub.contact.spec import RunSpec
+from bladerub.settings.quantities import QUANTITIES
+from bladerub.settings.study import Config
+from bladerub.settings.units import pressure_in_words, speed_in_words
 from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
 
@@ -28,7 +27,7 @@ class StudyRun:
 
     Parameters
     ----------
-    config : mapping
+    config : Config
         The config of the study, for a run of this length.
     case : CoatingCase
         Casing, coating and law of friction, normalised.
@@ -44,7 +43,7 @@ class StudyRun:
     0.01
     """
 
-    config: Mapping[str, Any] = field(repr=False)
+    config: Config = field(repr=False)
     case: CoatingCase
     spec: RunSpec = field(repr=False)
 
@@ -55,7 +54,7 @@ class StudyRun:
 
     def of_length(self, length: float) -> "StudyRun":
         """Describe the same run of a blade of this `length` (m): clearances and limits are in this unit."""
-        config = {**self.config, "blade": {**self.config["blade"], "length": length}}
+        config = self.config.replaced("blade.length", length)
         spec = grid.run_spec(config, self.case, self.f_omega)
         start = self.spec.initial_displacement
         return StudyRun(config, self.case, replace(spec, initial_displacement=start))
@@ -77,7 +76,7 @@ class StudyCoating:
 
     Parameters
     ----------
-    config : mapping
+    config : Config
         The config of the study.
     case : CoatingCase
         Casing, coating and law of friction, normalised.
@@ -91,7 +90,7 @@ class StudyCoating:
     5
     """
 
-    config: Mapping[str, Any] = field(repr=False)
+    config: Config = field(repr=False)
     case: CoatingCase
 
     @property
@@ -115,7 +114,7 @@ class StudyCoating:
         return f"StudyCoating({self.case.name}{_moduli(self.config, self.case)})"
 
 
-def checked_number(config: Mapping[str, Any], name: str, value: Quantity) -> float:
+def checked_number(config: Config, name: str, value: Quantity) -> float:
     """Return the argument `name` as a plain number within its bounds."""
     try:
         plain = quantities.number(name, value, quantities.references(config))
@@ -125,7 +124,7 @@ def checked_number(config: Mapping[str, Any], name: str, value: Quantity) -> flo
     return plain
 
 
-def _moduli(config: Mapping[str, Any], case: CoatingCase) -> str:
+def _moduli(config: Config, case: CoatingCase) -> str:
     """Write E and K of a coating in Pa; nothing of the rigid casing."""
     if case.is_rigid:
         return ""
@@ -133,18 +132,14 @@ def _moduli(config: Mapping[str, Any], case: CoatingCase) -> str:
     return f", E = {E}, K = {K}"
 
 
-def _of_revolutions(config: Mapping[str, Any], revolutions: int) -> dict[str, Any]:
+def _of_revolutions(config: Config, revolutions: int) -> Config:
     """Change a config to runs of so many revolutions: its analysis looks at no more."""
     limit = min(_MOST_REVOLUTIONS, most_revolutions(config))
     if not isinstance(revolutions, int) or not 2 <= revolutions <= limit:
         raise InputError("revolutions", revolutions, f"must be from 2 to {limit}")
-    analysis, divergence = config["analysis"], config["analysis"]["divergence"]
-    shorter = {
-        "spectrum_revolutions": min(analysis["spectrum_revolutions"], revolutions),
-        "divergence": {**divergence, "revolutions": min(divergence["revolutions"], revolutions)},
-    }
-    return {
-        **config,
-        "solver": {**config["solver"], "revolutions": revolutions},
-        "analysis": {**analysis, **shorter},
-    }
+    analysis = config.analysis
+    return (
+        config.replaced("solver.revolutions", revolutions)
+        .replaced("analysis.spectrum_revolutions", min(analysis.spectrum_revolutions, revolutions))
+        .replaced("analysis.divergence.revolutions", min(analysis.divergence.revolutions, revolutions))
+    )

@@ -14,11 +14,13 @@ from bladerub.api.errors import InputError
 from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
 from bladerub.api.study import settings_of
-from bladerub.config.units import speed_in_words
 from bladerub.contact.result import Energy
 from bladerub.io.equality import equal
 from bladerub.io.provenance import PREFIX, provenance
 from bladerub.plots import titles
+from bladerub.settings.analysis import Divergence
+from bladerub.settings.study import Config
+from bladerub.settings.units import speed_in_words
 from bladerub.study import run_set, store
 from bladerub.study.divergence import in_a_word
 from bladerub.study.grid import CoatingCase
@@ -47,7 +49,7 @@ class Run(Shown):
         The same for more revolutions, where the amplitude grows: it shows whether the growth lasts.
     stress : RunStress, optional
         The largest stress of the blade, where `simulate` was asked for it.
-    config : mapping, optional
+    config : Config, optional
         That of its study, if it was simulated here.
 
     Examples
@@ -89,7 +91,7 @@ class Run(Shown):
     stored: StoredRun = field(repr=False)
     longer: "Run | None" = None
     stress: Any = None
-    config: Mapping[str, Any] | None = field(default=None, repr=False)
+    config: Config | None = field(default=None, repr=False)
 
     def __eq__(self, other: object) -> bool:
         return equal(_content(self), _content(other)) if isinstance(other, Run) else NotImplemented
@@ -185,27 +187,27 @@ class Run(Shown):
         columns = {name.removeprefix("blade_"): data[name] for name in names if name in data}
         return pd.DataFrame(columns, pd.Index(data.get("blade", []), name="blade"))
 
-    def verdict(self, settings: Mapping[str, Any] | None = None) -> Verdict:
+    def verdict(self, settings: Divergence | None = None) -> Verdict:
         """Judge the growth of the run, and of its longer run if there is one, see `bladerub.study.growth`.
 
         The status of a run says how its simulation ended, the verdict what its vibration does. A run that is
         ``"unbounded"`` is divergent; one that is ``"completed"`` is divergent, saturating (it grows, but
         levels off) or neither. The verdict, and its own ``status``, are of the longer run if there is one.
 
-        `settings` are ``config["analysis"]["divergence"]`` of a study. Default: of its own study, or of the
+        `settings` are ``config.analysis.divergence`` of a study. Default: of its own study, or of the
         study at work (`load_study`) if the run was read from a file.
         """
         longer = self.longer.revolution_amplitude if self.longer else None
-        settings = settings or settings_of(None, self.config)["analysis"]["divergence"]
+        settings = settings or settings_of(None, self.config).analysis.divergence
         return judge(self.revolution_amplitude, self.status, settings, longer)
 
-    def summary(self, config: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    def summary(self, config: Config | None = None) -> dict[str, Any]:
         """Summarise the run by the settings of a study `config`, by default as of `verdict`.
 
         The keys are those of `bladerub.study.summary.summarise`, as in `--json` of `bladerub run`: peak
         amplitude and its engine order, wear, lobes, growth and verdict, steps, status.
         """
-        analysis = settings_of(config, self.config)["analysis"]
+        analysis = settings_of(config, self.config).analysis
         return summarise(self.stored, analysis, self.longer.stored if self.longer else None)
 
     def plot_wear(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
@@ -238,13 +240,13 @@ class Run(Shown):
         number = pd.Index(self.stored.data["revolution_number"], name="revolution")
         return pd.DataFrame({name: self.stored.data[name] for name in columns}, number)
 
-    def write(self, path: str | Path, config: Mapping[str, Any] | None = None) -> None:
+    def write(self, path: str | Path, config: Config | None = None) -> None:
         """Write the run to the HDF5 file `path`, whole or not at all; `config` as of `verdict`.
 
         The names of its longer run, if it has one, begin with ``longer_``. `read_run` returns an equal run.
         Raises OSError, which names the file, if it cannot be written.
         """
-        run_set.write(path, runs_of(self), provenance(settings_of(config, self.config)))
+        run_set.write(path, runs_of(self), provenance(settings_of(config, self.config).plain()))
 
     @property
     def _title(self) -> str:

@@ -92,7 +92,7 @@ def simulate(
     """
     blade.check_speed("f_omega", run.f_omega)
     run = run.of_length(blade.length)  # perhaps not the study's own blade
-    row, solver, analysis = row or row_of(run.config), one_by(solver_of(run.config)), run.config["analysis"]
+    row, solver, analysis = row or row_of(run.config), one_by(solver_of(run.config)), run.config.analysis
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
     stressed = _stress_solver(blade, run) if stress else None
@@ -102,7 +102,7 @@ def simulate(
 
         def report(revolutions: int) -> None:
             if revolutions < line.n:  # of the longer run
-                line.reset(analysis["divergence"]["confirmation_revolutions"])
+                line.reset(analysis.divergence.confirmation_revolutions)
             line.update(revolutions - line.n)
             if each:
                 each(revolutions)
@@ -114,7 +114,7 @@ def simulate(
         planned = planned_run(run.config, run.spec, f"{speed_name(run.f_omega)}.h5", True, row)
         stored, longer = computed(planned, stressed or solver), None
         amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
-        if follow and needs_confirmation(amplitude, status, analysis["divergence"]):
+        if follow and needs_confirmation(amplitude, status, analysis.divergence):
             longer = Run(computed(longer_run(run.config, planned), solver))
     run_stress = stressed.stress if stressed else None
     if run_stress:
@@ -125,4 +125,4 @@ def simulate(
 def _stress_solver(blade: Blade, run: StudyRun) -> Any:
     if (module := stress_measure()) is None:  # before any work
         raise ValueError("stress = True: this package is without what finds the stress, must be False")
-    return module.StressSolver(blade.mesh_path, run.config["analysis"]["spectrum_revolutions"])
+    return module.StressSolver(blade.mesh_path, run.config.analysis.spectrum_revolutions)

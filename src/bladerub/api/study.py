@@ -17,9 +17,9 @@ from bladerub.config import read as configuration
 from bladerub.config.checks import own_problem
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
-from bladerub.config.models.study import required
-from bladerub.config.units import pressure_in_words, speeds_in_words
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
+from bladerub.settings.study import Config, required, typed
+from bladerub.settings.units import pressure_in_words, speeds_in_words
 from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
 
@@ -33,8 +33,8 @@ class Study(Shown):
 
     Parameters
     ----------
-    config : mapping
-        The values of the config, checked, as in ``config/config.yaml``: SI units, or as said there.
+    config : Config
+        The config, checked, its keys as attributes as in ``config/config.yaml``: SI units, or as said there.
     folder : Path
         Folder of the study. Paths of the config are relative to it.
 
@@ -54,38 +54,41 @@ class Study(Shown):
     20
     >>> len(study.run("2nd", E=[1, 2, 4], K=0.5, f_omega=[0.19, 0.2]))
     6
-    >>> study.replace("contact.damping_ratio", 1e-3).config["contact"]["damping_ratio"]
+    >>> study.replace("contact.damping_ratio", 1e-3).config.contact.damping_ratio
     0.001
     >>> study.replace({"solver": {"revolutions": 40}, "results": "results/longer"}).results.name
     'longer'
-    >>> br.Study.from_settings({"solver": {"revolutions": 40}}).config["solver"]["revolutions"]
+    >>> br.Study.from_settings({"solver": {"revolutions": 40}}).config.solver.revolutions
     40
     >>> viscoplastic = study.with_law(br.Law("viscoplastic", viscosity=1e4))
     >>> viscoplastic.coating("2nd", E=2, K=0.5).at(0.19).spec.coating.element_law.name
     'viscoplastic'
     """
 
-    config: Mapping[str, Any] = field(repr=False)
+    config: Config = field(repr=False)
     folder: Path
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any]) -> "Study":
         """Return the study of nested values as `load_study` does that of a file; raises as `replace`."""
-        config = {} if required() <= settings.keys() else configuration.read(base_config())
-        return cls(config, study_folder()).replace(settings)
+        located = Located.of(settings, UNKNOWN)
+        if not required() <= settings.keys():
+            located = configuration.vary(configuration.read(base_config()), located)
+        return cls(configuration.validate(located), study_folder())
 
     @property
     def results(self) -> Path:
         """Folder of the results of the workflow."""
-        return self.folder / self.config["results"]
+        return self.folder / self.config.results
 
     def with_law(self, law: Any) -> "Study":
         """Return this study with another `law` of the abradable elements, for all its coatings.
 
         Its ``entry`` is the block ``contact.law`` of a config.
         """
-        contact = {**self.config["contact"], "law": law.entry}
-        return replace(self, config={**self.config, "contact": contact})
+        values = self.config.plain()
+        values["contact"]["law"] = law.entry
+        return replace(self, config=typed(values))
 
     def replace(self, settings: str | Mapping[str, Any], value: Any = None) -> "Study":
         """Return this study with other values in its config, checked as a whole.
@@ -220,7 +223,7 @@ class Study(Shown):
         *moduli: float,
         **tangential: Quantity,
     ) -> StudyCoating:
-        casings = self.config["casings"]
+        casings = self.config.casings
         if casing not in casings:
             raise InputError("casing", casing, _one_of(casing, casings))
         plain = {
@@ -230,7 +233,7 @@ class Study(Shown):
         }
         values = (*map(float, moduli), *(float(plain[name]) for name in tangential))
         case = make(casing, *values).with_own(**{name: plain.get(name) for name in overrides})
-        if case.variant and (problem := own_problem(dict(self.config), case)):
+        if case.variant and (problem := own_problem(self.config, case)):
             raise InputError(problem[0], case.own[problem[0]], f"must be {problem[1]}")
         return StudyCoating(self.config, case)
 
@@ -240,11 +243,11 @@ class Study(Shown):
         moduli = [unit * case.E for case in cases if not case.is_rigid]
         ends = f", E from {pressure_in_words(min(moduli))} to {pressure_in_words(max(moduli))}"
         return "Study", {
-            "casings": ", ".join(config["casings"]),
+            "casings": ", ".join(config.casings),
             "coatings": f"{len(cases)}{ends if moduli else ''}",
             "E = 1, K = 1": pressure_in_words(unit),
             "speeds": speeds_in_words(grid.speeds(config), kept_frequency(config)),
-            "revolutions": f"{config['solver']['revolutions']}",
+            "revolutions": f"{config.solver.revolutions}",
             "results": f"{self.results}",
         }
 
@@ -268,7 +271,7 @@ def load_study(*paths: str | Path) -> Study:
     Examples
     --------
     >>> import bladerub as br
-    >>> br.load_study().config["solver"]["revolutions"]
+    >>> br.load_study().config.solver.revolutions
     20
     """
     base = base_config()
@@ -284,13 +287,13 @@ def default_study() -> Study:
     Examples
     --------
     >>> import bladerub as br
-    >>> sorted(br.default_study().config["casings"])
+    >>> sorted(br.default_study().config.casings)
     ['2nd', '2nd5nd']
     """
     return Study(configuration.read(ROOT / CONFIG), study_folder())
 
 
-def settings_of(*configs: Mapping[str, Any] | None) -> Mapping[str, Any]:
+def settings_of(*configs: Config | None) -> Config:
     """Return the first of the `configs` that there is, or that of the study at work."""
     return next((config for config in configs if config is not None), None) or load_study().config
 

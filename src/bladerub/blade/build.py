@@ -1,8 +1,7 @@
 """From the config to the reduced blade and the tables that say how good it is."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -11,83 +10,81 @@ from bladerub import plugins
 from bladerub.blade import geometry
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
-from bladerub.blade.elasticity import Material
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import N_INTERFACE, n_interface
 from bladerub.blade.reduction import fit_speeds, reduce
 from bladerub.blade.source import reader
 from bladerub.io.errors import BadInput
+from bladerub.settings.blade import Blade, BladeSpec
 
 
-def build(config: Mapping[str, Any]) -> BuiltBlade:
+def build(config: BladeSpec) -> BuiltBlade:
     """Build the blade of the ``blade`` and ``reduction`` blocks of `config`.
 
     Raises ValueError if the blade cannot be meshed, its subclass BadInput if it cannot be imported, is not of
     its length or ``reduction.tolerance`` is not reached, EquilibriumError if it has no static equilibrium.
     """
-    if source := reader(config["blade"]):
+    if source := reader(config.blade):
         return source.build(config)
-    return reduce_meshed(meshed_blade(config["blade"], n_interface(config)), config)
+    return reduce_meshed(meshed_blade(config.blade, n_interface(config)), config)
 
 
-def frequency_at_rest(config: Mapping[str, Any]) -> float:
+def frequency_at_rest(config: BladeSpec) -> float:
     """Return the first frequency at rest (Hz) of the blade that `build` builds; raises the same."""
-    if source := reader(config["blade"]):
+    if source := reader(config.blade):
         return source.frequency_at_rest(config)
-    return frequency_of_mesh(meshed_blade(config["blade"], n_interface(config)), config)
+    return frequency_of_mesh(meshed_blade(config.blade, n_interface(config)), config)
 
 
-def frequency_of_mesh(blade: MeshedBlade, config: Mapping[str, Any]) -> float:
+def frequency_of_mesh(blade: MeshedBlade, config: BladeSpec) -> float:
     """Return the first frequency at rest (Hz) of a meshed blade of the material of `config`."""
-    material = Material.from_config(config["blade"]["material"])
-    return float(by_finite_elements(blade, material, (), (), 1).frequency[0])
+    return float(by_finite_elements(blade, config.blade.material, (), (), 1).frequency[0])
 
 
-def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
+def reduce_meshed(blade: MeshedBlade, config: BladeSpec) -> BuiltBlade:
     """Reduce a meshed blade with as many speeds and modes as its tolerance asks for; see `build`."""
 
     @lru_cache(maxsize=1)  # more modes at each speed need no new equilibria
     def discrete(n_speeds: int) -> DiscreteBlade:
-        return discretise(blade, {**config, "reduction": {**config["reduction"], "fit_speeds": n_speeds}})
+        return discretise(blade, config.replaced("reduction.fit_speeds", n_speeds))
 
     return _reduce(discrete, config)
 
 
-def reduce_given(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
+def reduce_given(blade: DiscreteBlade, config: BladeSpec) -> BuiltBlade:
     """Reduce a blade of given matrices with as many modes as its tolerance asks for; see `build`."""
     return _reduce(lambda _: blade, config, len(blade.stiffness))
 
 
 def _reduce(
-    discrete: Callable[[int], DiscreteBlade], config: Mapping[str, Any], most_fit_speeds: int | None = None
+    discrete: Callable[[int], DiscreteBlade], config: BladeSpec, most_fit_speeds: int | None = None
 ) -> BuiltBlade:
     """Reduce what `discrete` gives for a number of fit speeds; a tolerance asks for more (``REDUCTIONS``)."""
-    reduction = config["reduction"]
-    if "tolerance" not in reduction:
-        return reduce(discrete(reduction.get("fit_speeds", 3)), config, reduction)
+    if config.reduction.tolerance is None:
+        return reduce(discrete(config.reduction.fit_speeds or 3), config)
     if "tolerance" not in (offered := plugins.offered("REDUCTIONS")):
         raise BadInput("reduction.tolerance: must be left out, this package does not refine a reduction")
     return plugins.load(offered["tolerance"]).reduce_to_tolerance(discrete, config, most_fit_speeds)
 
 
 @threadpool_limits.wrap(limits=1)
-def meshed_blade(blade: Mapping[str, Any], n_nodes: int = N_INTERFACE) -> MeshedBlade:
+def meshed_blade(blade: Blade, n_nodes: int = N_INTERFACE) -> MeshedBlade:
     """Mesh the blade of the ``blade`` block, or the one of its source, with `n_nodes` interface nodes."""
     if source := reader(blade):
         return source.meshed(blade, n_nodes)
     geometry.check(blade, n_nodes)
     shape = geometry.BladeShape.from_config(blade)
-    return MeshedBlade(BladeMesh.from_shape(shape, blade["mesh"], n_nodes), shape.tip_cone, blade["length"])
+    return MeshedBlade(BladeMesh.from_shape(shape, blade.mesh, n_nodes), shape.tip_cone, blade.length)
 
 
-def discretise(blade: MeshedBlade, config: Mapping[str, Any]) -> DiscreteBlade:
+def discretise(blade: MeshedBlade, config: BladeSpec) -> DiscreteBlade:
     """Discretise `blade` by finite elements of the material and at the speeds that `config` asks for."""
-    reduction = config["reduction"]
-    f_max = reduction["f_omega_max"]
+    reduction = config.reduction
+    f_max = reduction.f_omega_max
     return by_finite_elements(
         blade,
-        Material.from_config(config["blade"]["material"]),
-        fit_speeds(f_max, reduction.get("fit_speeds", 3)),
-        np.linspace(0, f_max, reduction["accuracy_speeds"]).tolist(),
-        reduction["accuracy_modes"],
+        config.blade.material,
+        fit_speeds(f_max, reduction.fit_speeds or 3),
+        np.linspace(0, f_max, reduction.accuracy_speeds).tolist(),
+        reduction.accuracy_modes,
     )

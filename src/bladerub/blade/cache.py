@@ -2,41 +2,41 @@
 
 import hashlib
 import json
-from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from bladerub.blade.files import made_from
+from bladerub.blade.files import made_from, recipe
 from bladerub.blade.source import reader_digest
 from bladerub.io import atomic
 from bladerub.io.folders import cache_folder
 from bladerub.io.provenance import packages
 from bladerub.io.sources import digest_of
+from bladerub.settings.blade import Blade, BladeSpec
 
 
-def kept_at(config: Mapping[str, Any]) -> Path:
+def kept_at(config: BladeSpec) -> Path:
     """Return where the reduced blade of `config` is kept, whether it is there or not.
 
     The folder is named after all that determines the blade: its config, its file, the sources that build it,
     and the versions of the packages. Raises as `bladerub.blade.files.made_from`.
     """
-    return cache_folder() / "blades" / _name(config) / "reduced_model.h5"
+    return cache_folder() / "blades" / _name(config.blade, made_from(config)) / "reduced_model.h5"
 
 
-def _name(config: Mapping[str, Any]) -> str:
-    recipe = json.dumps([made_from(config), digest_of("blade"), reader_digest(config["blade"]), packages()])
-    return hashlib.sha256(recipe.encode()).hexdigest()[:16]
+def _name(blade: Blade, origin: Any) -> str:
+    content = [origin, digest_of("blade"), reader_digest(blade), packages()]
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
 
 
-def kept_frequency(config: Mapping[str, Any]) -> float | None:
+def kept_frequency(config: BladeSpec) -> float | None:
     """Return what `first_frequency` found before for the blade of `config`; None if it did not."""
     with suppress(OSError, ValueError):
         return float(_frequency_path(config).read_text(encoding="utf-8"))
     return None
 
 
-def first_frequency(config: Mapping[str, Any]) -> float:
+def first_frequency(config: BladeSpec) -> float:
     """Return the first frequency at rest of the blade of `config`, Hz, as `rounded_frequency`.
 
     It takes a few seconds and is kept. Raises as `bladerub.blade.build.frequency_at_rest`.
@@ -56,6 +56,6 @@ def rounded_frequency(f1_hz: float) -> float:
     return float(f"{f1_hz:.9g}")
 
 
-def _frequency_path(config: Mapping[str, Any]) -> Path:
-    of_blade = {"blade": config["blade"], "reduction": {}}  # which at rest has no part in it
-    return cache_folder() / "frequencies" / _name(of_blade)
+def _frequency_path(config: BladeSpec) -> Path:
+    # the reduction has no part in it at rest
+    return cache_folder() / "frequencies" / _name(config.blade, recipe(config.blade))

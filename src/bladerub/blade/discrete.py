@@ -8,11 +8,12 @@ import numpy as np
 from scipy import sparse
 from threadpoolctl import threadpool_limits
 
-from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.elasticity import Solid
 from bladerub.blade.linear import Solve, factorise, lowest_modes
 from bladerub.blade.mesh import FreeCoordinates, MeshedBlade
 from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.rotation import equilibrium
+from bladerub.settings.blade import Material
 
 log = logging.getLogger(__name__)
 

@@ -11,9 +11,7 @@ numbering; the integrals of `k` are formed for all shape functions of an element
 tangent is needed dozens of times and a form evaluated pair by pair costs ten times as much.
 """
 
-from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -22,29 +20,16 @@ from skfem import Basis, ElementVector
 from skfem.models.poisson import mass
 
 from bladerub.blade.mesh import FreeCoordinates, SolidMesh
+from bladerub.settings.blade import Material
 
 _CHUNK = 512  # elements integrated at once: bounds the memory on fine meshes
 _THREADS = 2  # each integrates chunks of its own, so their number changes no bit
 
 
-@dataclass(frozen=True)
-class Material:
-    """Isotropic material."""
-
-    young_modulus: float  # Pa
-    poisson_ratio: float
-    density: float  # kg/m³
-
-    @classmethod
-    def from_config(cls, material: Mapping[str, float]) -> "Material":
-        """Read the ``blade.material`` block of the config."""
-        return cls(*(float(material[name]) for name in ("young_modulus", "poisson_ratio", "density")))
-
-    @property
-    def lame(self) -> tuple[float, float]:
-        """Lamé parameters λ and μ, Pa."""
-        young, poisson = self.young_modulus, self.poisson_ratio
-        return young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))
+def lame(material: Material) -> tuple[float, float]:
+    """Return the Lamé parameters λ and μ of an isotropic material, Pa."""
+    young, poisson = material.young_modulus, material.poisson_ratio
+    return young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))
 
 
 class Solid(FreeCoordinates):
@@ -105,12 +90,12 @@ class Solid(FreeCoordinates):
 
     def _stress(self, F: np.ndarray) -> np.ndarray:
         """Second Piola-Kirchhoff stress S (element, point, 3, 3), Pa."""
-        lam, mu = self.material.lame
+        lam, mu = lame(self.material)
         E = 0.5 * (np.swapaxes(F, -1, -2) @ F - np.eye(3))
         return lam * np.trace(E, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) + 2 * mu * E
 
     def _element_tangents(self, part: slice, displacement: np.ndarray) -> np.ndarray:
-        lam, mu = self.material.lame
+        lam, mu = lame(self.material)
         gradients, weights = self._gradients[part], self._weights[part]
         F = _deformation_gradient(gradients, displacement)
         S = self._stress(F)

@@ -1,12 +1,12 @@
 """The files of a blade, and what they were built from; importing this loads nothing of the builder."""
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from bladerub.blade.source import reader
 from bladerub.io import hdf5
+from bladerub.settings.blade import Blade, BladeSpec
 
 
 def mesh_path(reduced_model: Path) -> Path:
@@ -24,18 +24,21 @@ def paths(reduced_model: Path) -> tuple[Path, Path, Path]:
     return reduced_model, mesh_path(reduced_model), accuracy_path(reduced_model)
 
 
-def made_from(config: Mapping[str, Any]) -> str:
+def made_from(config: BladeSpec) -> str:
     """Write down what of `config` determines the blade: equal for two configs of the same blade.
 
     Raises OSError or ValueError if a file that the blade comes from cannot be read or is missing.
     """
-    blade = config["blade"]
-    if source := reader(blade):
-        blade = source.recipe(blade)
-    return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
+    return json.dumps({"blade": recipe(config.blade), "reduction": config.reduction.plain()}, sort_keys=True)
 
 
-def is_built(config: Mapping[str, Any], path: Path) -> bool:
+def recipe(blade: Blade) -> dict[str, Any]:
+    """Return what of the block ``blade`` determines the blade; raises as `made_from`."""
+    source = reader(blade)
+    return source.recipe(blade) if source else blade.plain()
+
+
+def is_built(config: BladeSpec, path: Path) -> bool:
     """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
     mesh = mesh_path(path)
     if not (path.exists() and mesh.exists()):

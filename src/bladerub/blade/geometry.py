@@ -17,19 +17,17 @@ positive with the rotation, and then wrapped: ``phi = t / r``.
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import scipy  # its parts when they are used: every call of snakemake imports this module
 
 from bladerub.blade.model import N_INTERFACE
+from bladerub.settings.blade import Blade, Mesh
 
 MOST_ELEMENTS = 20_000  # some 300,000 unknowns: beyond, their factors fill the memory
 EDGE_THICKNESS = 0.4  # over the largest of a section: blunt, so that hexahedra keep their shape
-_COLUMNS = ("chord", "thickness", "camber", "stagger", "sweep", "lean")
 
 
 @dataclass(frozen=True)
@@ -46,15 +44,16 @@ class BladeShape:
     sections: np.ndarray  # (n, 6): chord (m), thickness / chord, camber, stagger (rad), sweep, lean (m)
 
     @classmethod
-    def from_config(cls, blade: Mapping[str, Any]) -> "BladeShape":
+    def from_config(cls, blade: Blade) -> "BladeShape":
         """Read the shape from the ``blade`` block of the config (angles there in degrees)."""
-        rows = [[section[name] for name in _COLUMNS] for section in blade["sections"]]
-        sections = np.array(rows, dtype=float)
-        angles = [_COLUMNS.index("camber"), _COLUMNS.index("stagger")]
-        sections[:, angles] = np.deg2rad(sections[:, angles])
-        span = np.array([section["span"] for section in blade["sections"]], dtype=float)
-        tip_cone = float(np.deg2rad(blade["tip_cone"]))
-        return cls(float(blade["hub_radius"]), float(blade["length"]), tip_cone, span, sections)
+        span = np.array([s.span for s in blade.sections])
+        sections = np.array(
+            [
+                (s.chord, s.thickness, *np.deg2rad((s.camber, s.stagger)), s.sweep, s.lean)
+                for s in blade.sections
+            ]
+        )
+        return cls(blade.hub_radius, blade.length, float(np.deg2rad(blade.tip_cone)), span, sections)
 
     def section(self, zeta: np.ndarray) -> np.ndarray:
         """Interpolate the columns of `sections` at the relative heights `zeta`: (6, ...)."""
@@ -105,26 +104,26 @@ def _through(x: np.ndarray, rows: np.ndarray, at: np.ndarray) -> np.ndarray:
     return rows[piece] + slope[piece] * h + square[piece] * (h * h) + (bend / width)[piece] * (h * h * h)
 
 
-def lattice(mesh: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def lattice(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """ξ, η, ζ of the element corners of a mesh of ``chordwise`` × ``thickness`` × ``spanwise`` elements."""
-    xi, eta, zeta = (np.linspace(0, 1, int(mesh[key]) + 1) for key in ("chordwise", "thickness", "spanwise"))
+    xi, eta, zeta = (np.linspace(0, 1, n + 1) for n in (mesh.chordwise, mesh.thickness, mesh.spanwise))
     return xi, eta, zeta
 
 
-def check_size(mesh: Mapping[str, int]) -> None:
+def check_size(mesh: Mesh) -> None:
     """Check that a mesh has no more elements than fit into memory, or raise ValueError."""
-    n_elements = mesh["chordwise"] * mesh["thickness"] * mesh["spanwise"]
+    n_elements = mesh.chordwise * mesh.thickness * mesh.spanwise
     if n_elements > MOST_ELEMENTS:
         raise ValueError(f"blade.mesh: has {n_elements} elements, must be {MOST_ELEMENTS} or fewer")
 
 
-def check(blade: Mapping[str, Any], n_interface: int = N_INTERFACE) -> None:
+def check(blade: Blade, n_interface: int = N_INTERFACE) -> None:
     """Check that the ``blade`` block of the config describes a blade that can be meshed.
 
     A ValueError names the key, the value and what would be right, if the sections do not ascend from span 0
     to 1, an element would be turned inside out, or the tip has too few nodes for the interface.
     """
-    spans = [float(section["span"]) for section in blade["sections"]]
+    spans = [section.span for section in blade.sections]
     if len(spans) < 2:
         raise ValueError(f"blade.sections: {len(spans)} section(s); give at least two, at span 0 and 1")
     for index, end in ((0, 0.0), (len(spans) - 1, 1.0)):
@@ -138,8 +137,8 @@ def check(blade: Mapping[str, Any], n_interface: int = N_INTERFACE) -> None:
                 f"blade.sections[{index}].span = {span:g}: must be above that of the section before "
                 f"({before:g})"
             )
-    check_interface(blade["mesh"], n_interface)
-    xi, eta, zeta = lattice(blade["mesh"])
+    check_interface(blade.mesh, n_interface)
+    xi, eta, zeta = lattice(blade.mesh)
     shape = BladeShape.from_config(blade)
     jacobian = corner_jacobians(shape.points(xi[:, None, None], eta[None, :, None], zeta[None, None, :]))
     lowest = jacobian.min(axis=(0, 1, 2))
@@ -153,14 +152,14 @@ def check(blade: Mapping[str, Any], n_interface: int = N_INTERFACE) -> None:
         )
 
 
-def check_interface(mesh: Mapping[str, int], n_interface: int = N_INTERFACE) -> None:
+def check_interface(mesh: Mesh, n_interface: int = N_INTERFACE) -> None:
     """Check that the tip's camber line has enough nodes for the interface, or raise ValueError."""
     # Through an odd number of elements the line meets nodes only where it crosses their corner edges.
-    n_nodes = mesh["chordwise"] * (2 if mesh["thickness"] % 2 == 0 else 1) + 1
+    n_nodes = mesh.chordwise * (2 if mesh.thickness % 2 == 0 else 1) + 1
     if n_nodes < n_interface:
         fewest = math.ceil((n_interface - 1) / 2)
         raise ValueError(
-            f"blade.mesh.chordwise = {mesh['chordwise']}: gives {n_nodes} nodes on the tip's camber line, "
+            f"blade.mesh.chordwise = {mesh.chordwise}: gives {n_nodes} nodes on the tip's camber line, "
             f"not {n_interface}; must be {fewest} or more with an even blade.mesh.thickness, else "
             f"{n_interface - 1} or more"
         )

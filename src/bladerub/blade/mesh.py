@@ -1,6 +1,5 @@
 """Meshes of quadratic elements, curved at their mid-side nodes; the blade's mesh and its free coordinates."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar
 
@@ -12,6 +11,7 @@ from skfem.refdom import RefTet
 
 from bladerub.blade.geometry import check_interface, lattice
 from bladerub.blade.model import N_INTERFACE
+from bladerub.settings.blade import Mesh
 
 
 class FreeCoordinates:
@@ -156,7 +156,7 @@ class BladeMesh:
     interface: np.ndarray  # (j,) nodes of the tip's camber line that may touch, leading to trailing edge
 
     @classmethod
-    def from_shape(cls, shape, mesh: Mapping[str, int], n_interface: int = N_INTERFACE) -> "BladeMesh":
+    def from_shape(cls, shape, mesh: Mesh, n_interface: int = N_INTERFACE) -> "BladeMesh":
         """Mesh `shape`, whose ``points`` map the unit cube as those of `bladerub.blade.geometry.BladeShape`.
 
         `mesh` are the element counts of the config. A ValueError says if the tip has too few for its nodes.

@@ -10,13 +10,14 @@ import numpy as np
 
 from bladerub.io import hdf5
 from bladerub.io.hdf5 import Variable
+from bladerub.settings.blade import BladeSpec
 
 N_INTERFACE = 8  # nodes on the blade tip, leading to trailing edge, if not said otherwise
 
 
-def n_interface(config: Mapping[str, Any]) -> int:
+def n_interface(config: BladeSpec) -> int:
     """Return the number of interface nodes that `config` asks for; matrices bring their own."""
-    return int(config["reduction"].get("interface_nodes", N_INTERFACE))
+    return config.reduction.interface_nodes or N_INTERFACE
 
 
 def interface_node(n_nodes: int) -> Variable:

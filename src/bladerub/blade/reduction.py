@@ -1,9 +1,8 @@
 """Craig-Bampton reduction with centrifugal stiffening, eqs. (2) to (6)."""
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -19,6 +18,7 @@ from bladerub.blade.linear import Solve, factorise, lowest_modes
 from bladerub.blade.model import ReducedBlade, stiffness_at
 from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.tip_slope import tip_slope
+from bladerub.settings.blade import BladeSpec
 
 log = logging.getLogger(__name__)
 
@@ -152,17 +152,14 @@ def project(matrix: sparse.csc_array, phi: np.ndarray) -> np.ndarray:
 
 
 @threadpool_limits.wrap(limits=1)  # as `by_finite_elements`
-def reduce(blade: DiscreteBlade, config: Mapping[str, Any], reduction: Mapping[str, Any]) -> BuiltBlade:
-    """Reduce `blade`, of `config`, as a block ``reduction`` says, its own or one with finer values.
-
-    Raises as `bladerub.blade.files.made_from`.
-    """
-    mesh, full = blade.layout.mesh, blade.free.full
-    f_max = reduction["f_omega_max"]
+def reduce(blade: DiscreteBlade, config: BladeSpec) -> BuiltBlade:
+    """Reduce `blade` as `config` says; raises as `bladerub.blade.files.made_from`."""
+    mesh, full, reduction = blade.layout.mesh, blade.free.full, config.reduction
+    f_max = reduction.f_omega_max
 
     partition = Partition.around(blade.free.coordinates(mesh.interface), blade.mass.shape[0])
-    fits = [blade.stiffness[f_omega] for f_omega in fit_speeds(f_max, reduction.get("fit_speeds", 3))]
-    eta, rank_tolerance = reduction["modes_per_speed"], reduction["rank_tolerance"]
+    fits = [blade.stiffness[f_omega] for f_omega in fit_speeds(f_max, reduction.fit_speeds or 3)]
+    eta, rank_tolerance = reduction.modes_per_speed, reduction.rank_tolerance
     phi = transformation(fits, blade.mass, partition, eta, rank_tolerance, blade.at_rest)
     recovery = np.stack([full(column) for column in phi.T])  # eq. (6)
     radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.layout.tip_cone)
@@ -179,7 +176,7 @@ def reduce(blade: DiscreteBlade, config: Mapping[str, Any], reduction: Mapping[s
         f_omega_max=f_max,
         eta=eta,
         rank_tolerance=rank_tolerance,
-        length=config["blade"]["length"],
+        length=config.blade.length,
         stiffness_higher=tuple(higher),
         tip_slope=tip_slope(mesh, recovery, radial, tangential),
     )

@@ -13,33 +13,33 @@ Each key of ``blade.source`` that names a place, such as a file, has a module of
 ============================= ==========================================================================
 """
 
-from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 from bladerub import plugins
 from bladerub.io.errors import BadInput
 from bladerub.io.sources import source_digest
+from bladerub.settings.blade import Blade
 
 FUNCTIONS = ("problems", "recipe", "files", "build", "frequency_at_rest")
 """What the module of every source has."""
 
 
-def place(blade: Mapping[str, Any]) -> str | None:
+def place(blade: Blade) -> str | None:
     """Name the module, below ``bladerub``, for the source of the block ``blade``; None of a parametric blade.
 
     Raises a ValueError that begins with the key if there is none.
     """
-    if "source" not in blade:
+    source, places = blade.plugged("source"), plugins.offered("SOURCES")
+    if source is None:
         return None
-    places = plugins.offered("SOURCES")
-    if not places.keys() & blade["source"].keys():
+    given = [place for key, place in places.items() if source.plugged(key) is not None]
+    if not given:
         raise ValueError(f"blade.source: must have {' or '.join(sorted(places)) or 'a plugin that reads it'}")
-    return next(place for key, place in places.items() if key in blade["source"])
+    return given[0]
 
 
-def reader(blade: Mapping[str, Any]) -> ModuleType | None:
+def reader(blade: Blade) -> ModuleType | None:
     """Import the module that `place` names; None of a parametric blade.
 
     Raises `BadInput`, which names it, if it has not all functions of a source.
@@ -53,13 +53,13 @@ def reader(blade: Mapping[str, Any]) -> ModuleType | None:
     return module
 
 
-def files(blade: Mapping[str, Any]) -> list[str]:
+def files(blade: Blade) -> list[str]:
     """List the files that the block ``blade`` names; ValueError if one that is needed is missing."""
     module = reader(blade)
-    return module.files(blade["source"]) if module else []
+    return module.files(blade.plugged("source")) if module else []
 
 
-def reader_digest(blade: Mapping[str, Any]) -> str | None:
+def reader_digest(blade: Blade) -> str | None:
     """Digest the sources in the folder of the module for the block ``blade``; None of a parametric blade."""
     module = reader(blade)
     return module and source_digest(Path(module.__file__).parent.rglob("*.py"))

@@ -13,14 +13,15 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from tqdm import tqdm
 
 from bladerub.config import read as configuration
-from bladerub.config import record, units
-from bladerub.config.errors import format_value
-from bladerub.io.errors import BadInput, message_for
+from bladerub.config import record
+from bladerub.io.errors import BadInput, format_value, message_for
 from bladerub.io.folders import base_config, study_folder
 from bladerub.io.plain import plain
+from bladerub.settings import units
 
 if TYPE_CHECKING:  # imports that load numba are made where they are needed, so that --help answers at once
     from bladerub.api.blade import Blade
+    from bladerub.settings.study import Config
 
 
 class Parser(argparse.ArgumentParser):
@@ -152,12 +153,12 @@ def aligned(rows: Iterable[tuple[str, str]]) -> list[str]:
     return [f"{name:<{width}}{value}" for name, value in rows]
 
 
-def read_config(options: argparse.Namespace) -> dict[str, Any]:
+def read_config(options: argparse.Namespace) -> "Config":
     """Read the study's config as `read_config_with_notes`."""
     return read_config_with_notes(options)[0]
 
 
-def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any], list[str]]:
+def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[str]]":
     """Read and check the study's config with the files of ``--config`` laid over it.
 
     Without ``--config``, those are laid over it that made the results (`bladerub.config.record`). Returns the
@@ -170,11 +171,11 @@ def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any],
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
     config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
-    law = config["contact"].get("law", {}).get("file")
+    law = config.plain()["contact"].get("law", {}).get("file")
     named_law = configuration.load(base)["contact"].get("law", {}).get("file")
     if law not in (None, named_law) and not getattr(options, "trust", True):
         raise BadInput(
-            f"{config['results']}/{record.FILE} names the law {law}, a program that this would execute: "
+            f"{config.results}/{record.FILE} names the law {law}, a program that this would execute: "
             "read it, then add --trust, or name the config yourself with --config FILE"
         )
     return config, notes
@@ -213,15 +214,15 @@ def convert(options: argparse.Namespace, *names: str, reference: units.Reference
             raise BadInput(f"--{name.replace('_', '-')} = {format_value(typed)}: {error}") from None
 
 
-def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:
+def blade_path(options: argparse.Namespace, config: "Config") -> Path:
     """Return the file of ``--blade``, or where the blade of the results folder is or will be."""
-    return options.blade or study_folder() / config["results"] / "blade" / "reduced_model.h5"
+    return options.blade or study_folder() / config.results / "blade" / "reduced_model.h5"
 
 
-def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
+def read_blade(options: argparse.Namespace, config: "Config") -> "tuple[Blade, Config]":
     """Read the reduced blade, and build it first if the results folder has none.
 
-    ``blade.length`` of `config` becomes that of a blade given with ``--blade``: clearances are in this unit.
+    The config returned with it has the length of a blade given with ``--blade``: clearances are in this unit.
     A damaged file is an `OSError` if the command can make it again, a `BadInput` if not.
     """
     from bladerub.api import blade as blades
@@ -246,8 +247,8 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
             raise BadInput(str(error)) from error
         raise
     if options.blade:
-        config["blade"]["length"] = blade.length
+        config = config.replaced("blade.length", blade.length)
     with suppress(OSError):  # a blade from elsewhere may be without its table
-        for doubt in blade.doubts(config["figures"].get("nominal_speed")):
+        for doubt in blade.doubts(config.figures.nominal_speed):
             print(f"bladerub {options.name}: {path}: {doubt}", file=sys.stderr)
-    return blade
+    return blade, config

@@ -5,6 +5,7 @@ import math
 import os
 import sys
 import time
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -81,7 +82,7 @@ def run(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     _check_coating(options)
     if options.device:
-        config["solver"]["device"] = options.device
+        config = config.replaced("solver.device", options.device)
     for option in _options():
         option.check(options, config)
 
@@ -98,18 +99,21 @@ def run(options: argparse.Namespace) -> None:
     if options.output:
         _check_output(options.output)
     speed = options.f if options.rpm is None else f"{options.rpm!r} rpm"
-    blade = inputs.read_blade(options, config) if options.blade else None
+    blade = None
+    if options.blade:
+        blade, config = inputs.read_blade(options, study.config)
+        study = replace(study, config=config)
     with inputs.as_options(f_omega="f", speed="f"):
         f_omega = blade.f_omega(speed) if blade else speed
         planned = _coating(options, study).at(f_omega, options.revolutions)
-    fastest = config["reduction"]["f_omega_max"]
+    fastest = config.reduction.f_omega_max
     if not blade and planned.f_omega > fastest:  # of a blade that may not be built yet
         typed = f" ({speed})" if isinstance(speed, str) else ""
         limit = f"reduction.f_omega_max = {fastest:g} (times the first frequency at rest)"
         raise BadInput(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
     _point_out(options)
     solver_of(config).check()
-    blade = blade or inputs.read_blade(options, config)
+    blade = blade or inputs.read_blade(options, config)[0]
     with refused(ValueError, OSError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()
         result = simulate(blade, planned, **more)

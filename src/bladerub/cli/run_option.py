@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
     from bladerub.api.study import Study
+    from bladerub.settings.study import Config
 
 
 class RunOption:
@@ -21,7 +22,7 @@ class RunOption:
     def add_to(self, parser: Parser) -> None:
         """Add the options to those of the command."""
 
-    def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
+    def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Check and convert the options; raises `bladerub.io.errors.BadInput`."""
 
     def vary(self, options: argparse.Namespace, study: "Study") -> "Study":

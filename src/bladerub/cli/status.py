@@ -8,7 +8,7 @@ from typing import Any
 
 from bladerub import plugins
 from bladerub.cli import inputs
-from bladerub.config.units import speeds_in_words
+from bladerub.settings.units import speeds_in_words
 
 _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unreadable", "unbounded")
 
@@ -52,7 +52,7 @@ def status(options: argparse.Namespace) -> None:
     from bladerub.study.grid import coating_cases, speeds
     from bladerub.study.plan import coating_plan
 
-    results = inputs.study_folder() / config["results"]
+    results = inputs.study_folder() / config.results
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
     cases, taken = coating_cases(config), {}
     for case in inputs.progress_bar(len(cases), "coating", cases, quiet=options.json):

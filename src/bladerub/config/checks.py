@@ -3,8 +3,7 @@
 import itertools
 import math
 import os
-from collections.abc import Callable, Collection, Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Collection, Iterator
 
 import numpy as np
 
@@ -12,9 +11,12 @@ from bladerub import plugins
 from bladerub.blade import geometry
 from bladerub.blade.model import n_interface
 from bladerub.blade.source import reader
-from bladerub.config.errors import format_value, top_key
+from bladerub.config.errors import top_key
 from bladerub.contact.casing import shape
+from bladerub.io.errors import format_value
 from bladerub.io.folders import study_folder
+from bladerub.settings.contact import AnyCasing
+from bladerub.settings.study import Config
 from bladerub.study.casings import casing_spec
 from bladerub.study.grid import (
     OWN,
@@ -29,7 +31,6 @@ from bladerub.study.grid import (
 from bladerub.study.orders import peak_orders, used_casings
 from bladerub.study.paper import HISTORIES
 
-Config = dict[str, Any]
 Check = Callable[[Config], Iterator[str]]
 
 SOURCE_FOLDERS = ("benchmarks", "build", "config", "docs", "profiles", "src", "studies", "tests")
@@ -55,7 +56,11 @@ def check(config: Config, broken: Collection[str]) -> list[str]:
     A check is left out if it reads a section in `broken`, or one with a problem already found.
     """
     problems: list[str] = []
-    added = [function for section, function in plugins.loaded("AGREEMENTS").items() if section in config]
+    added = [
+        function
+        for section, function in plugins.loaded("AGREEMENTS").items()
+        if config.plugged(section) is not None
+    ]
     for function in (*_CHECKS, *added):
         if not function.sections & {*broken, *map(top_key, problems)}:  # type: ignore[attr-defined]
             try:
@@ -65,15 +70,15 @@ def check(config: Config, broken: Collection[str]) -> list[str]:
     return problems
 
 
-def most_revolutions(config: Mapping[str, Any]) -> int:
+def most_revolutions(config: Config) -> int:
     """Return the revolutions that the samples of a run allow (`MOST_SAMPLES`)."""
-    return MOST_SAMPLES // config["contact"]["elements"]
+    return MOST_SAMPLES // config.contact.elements
 
 
 @reads("results")
 def _results(config: Config) -> Iterator[str]:
-    folders = config["results"].split("/")
-    setting = f"results = {format_value(config['results'])}"
+    folders = config.results.split("/")
+    setting = f"results = {format_value(config.results)}"
     if folders[0].casefold() in SOURCE_FOLDERS:
         yield f"{setting}: must not be in {folders[0]}, which is the repository's own"
     for path in itertools.accumulate(folders, os.path.join):
@@ -83,17 +88,17 @@ def _results(config: Config) -> Iterator[str]:
 
 @reads("blade", "reduction")
 def _blade(config: Config) -> Iterator[str]:
-    blade = config["blade"]
+    blade = config.blade
     if source := reader(blade):
         yield from source.problems(config)
     else:
-        geometry.check_size(blade["mesh"])
+        geometry.check_size(blade.mesh)
         geometry.check(blade, n_interface(config))
 
 
 @reads("reduction")
 def _accuracy_modes(config: Config) -> Iterator[str]:
-    modes, per_speed = config["reduction"]["accuracy_modes"], config["reduction"]["modes_per_speed"]
+    modes, per_speed = config.reduction.accuracy_modes, config.reduction.modes_per_speed
     limit = 3 * n_interface(config) + per_speed  # coordinates that the reduced model has for sure
     if modes > limit:
         yield f"reduction.accuracy_modes = {modes}: must be at most {limit}, with {per_speed} modes_per_speed"
@@ -102,49 +107,49 @@ def _accuracy_modes(config: Config) -> Iterator[str]:
 @reads("results", "blade", "reduction", "casings", "contact", "coatings", "solver", "speeds")
 def _stable_steps(config: Config) -> Iterator[str]:
     """Check central differences by the highest mode of the blade; its runs do if it is not built yet."""
-    solver = config["solver"]
-    key = next((name for name in ("max_time_step", "steps_per_element") if name in solver), None)
-    if solver["scheme"] != "central_differences" or key is None:  # by the tolerance they are stable
+    solver = config.solver
+    key = next((name for name in ("max_time_step", "steps_per_element") if getattr(solver, name)), None)
+    if solver.scheme != "central_differences" or key is None:  # by the tolerance they are stable
         return
     from bladerub.blade.validation import read_reduced_blade  # as the rest, needed for this scheme alone
     from bladerub.contact.modes import mode_shapes_at
     from bladerub.contact.steps import own_steps
     from bladerub.study.inventory import current_blade
 
-    model = study_folder() / config["results"] / "blade" / "reduced_model.h5"
+    model = study_folder() / config.results / "blade" / "reduced_model.h5"
     if current_blade(config, model)[0] is None:
         return
-    blade, n_elements = read_reduced_blade(model), config["contact"]["elements"]
-    longest = solver.get("max_time_step", math.inf) * config["contact"].get("scale", UNSCALED)["time"]
+    blade, n_elements = read_reduced_blade(model), config.contact.elements
+    longest = (solver.max_time_step or math.inf) * config.contact.plugged("scale", UNSCALED).time
     for f_omega in speeds(config):
         passage = 1 / (f_omega * blade.f1_hz * n_elements)
-        step = passage / own_steps(passage, solver.get("steps_per_element", 0), longest)
+        step = passage / own_steps(passage, solver.steps_per_element or 0, longest)
         stable = 2 / mode_shapes_at(blade, f_omega)[0][-1]
         if step >= stable:
             yield (
-                f"solver.{key} = {solver[key]:g}: central_differences needs steps below {stable:.3g} s for "
-                "the highest mode of this blade"
+                f"solver.{key} = {getattr(solver, key):g}: central_differences needs steps below "
+                f"{stable:.3g} s for the highest mode of this blade"
             )
             return
 
 
 @reads("contact")
 def _tip(config: Config) -> Iterator[str]:
-    if config["contact"].get("tip_turns") and not plugins.offered("MOTIONS"):
+    if config.contact.tip_turns and not plugins.offered("MOTIONS"):
         yield "contact.tip_turns = true: must be false, this package's tips keep their angle"
 
 
 @reads("casings")
 def _tables(config: Config) -> Iterator[str]:
     """Read the tables of measured casings."""
-    for name, entry in config["casings"].items():
+    for name, entry in config.casings.items():
         try:
             casing_spec("", entry)
         except ValueError as error:
             yield f"casings.{name}.{error}"
 
 
-def _too_deep(config: Config, entry: Config, depth: float) -> str | None:
+def _too_deep(config: Config, entry: AnyCasing, depth: float) -> str | None:
     casing = casing_spec("", entry)
     lowest = float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
     deepest = casing.amplitude * (1 - lowest) + _smallest_clearance(config)
@@ -154,7 +159,7 @@ def _too_deep(config: Config, entry: Config, depth: float) -> str | None:
 @reads("casings", "contact", "blade", "coatings")
 def _contact_at_all(config: Config) -> Iterator[str]:
     cases = coating_cases(config)
-    for name in config["casings"]:
+    for name in config.casings:
         depths = [case.own.get("interference") for case in cases if case.casing == name]
         if not depths or None in depths:  # or each coating says how deep, see `own_problem`
             yield from casing_problems(config, name)
@@ -162,11 +167,11 @@ def _contact_at_all(config: Config) -> Iterator[str]:
 
 def casing_problems(config: Config, name: str) -> Iterator[str]:
     """Say how the depth of a casing is wrong for coatings that have no `interference` of their own."""
-    thickness, entry = config["contact"]["layer_thickness"], config["casings"][name]
+    thickness, entry = config.contact.layer_thickness, config.casings[name]
     depth, key = casing_spec(name, entry).interference, f"casings.{name}.interference"
     bound = _too_deep(config, entry, depth) or _too_shallow(config, depth)
-    if "table" in entry:
-        if "interference" not in entry:
+    if entry.plugged("table"):
+        if entry.interference is None:
             key = f"casings.{name}.table: interference"
         if bound and depth <= _smallest_clearance(config):
             bound += "; give an interference here or in the entry of coatings, or lower the table"
@@ -185,14 +190,15 @@ def _too_shallow(config: Config, depth: float) -> str | None:
 
 def _smallest_clearance(config: Config) -> float:
     """Smaller clearance at an edge of the tip, in m before ``contact.scale``, as those of the casings."""
-    smallest = min(config["contact"]["clearance"].values()) * config["blade"]["length"]
-    return float(smallest / config["contact"].get("scale", UNSCALED)["length"])
+    clearance = config.contact.clearance
+    smallest = min(clearance.leading_edge, clearance.trailing_edge) * config.blade.length
+    return smallest / config.contact.plugged("scale", UNSCALED).length
 
 
 def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
     """Say what is wrong with the values of its own that a coating has: the key, and what would be right."""
-    casing, values = config["casings"][case.casing], case.own
-    thickness = values.get("layer_thickness", config["contact"]["layer_thickness"])
+    casing, values = config.casings[case.casing], case.own
+    thickness = values.get("layer_thickness", config.contact.layer_thickness)
     depth = values.get("interference", casing_spec("", casing).interference)
     if "interference" not in values:
         bound = f"above the interference of the casing, {depth:g} m, or the blade reaches through the coating"
@@ -205,8 +211,8 @@ def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
 
 @reads("casings", "contact", "blade", "coatings")
 def _own_values(config: Config) -> Iterator[str]:
-    for index, entry in enumerate(config["coatings"]):
-        for case in cases_of(entry) if OWN.keys() & entry.keys() else ():
+    for index, entry in enumerate(config.coatings):
+        for case in cases_of(entry) if OWN.keys() & entry.model_fields_set else ():
             if problem := own_problem(config, case):
                 key, bound = problem
                 yield f"coatings[{index}].{key} = {case.own[key]:g}: must be {bound}"
@@ -216,7 +222,7 @@ def _own_values(config: Config) -> Iterator[str]:
 def _runs(config: Config) -> Iterator[str]:
     n_speeds = len(speeds(config))
     if n_speeds < 2:
-        stop = config["speeds"]["stop"]
+        stop = config.speeds.stop
         yield f"speeds.stop = {stop:g}: must give two speeds or more, for maps and peaks"
     n_runs = len(coating_cases(config)) * n_speeds
     if n_runs > MOST_RUNS:
@@ -225,13 +231,13 @@ def _runs(config: Config) -> Iterator[str]:
 
 @reads("analysis", "solver", "contact")
 def _revolutions(config: Config) -> Iterator[str]:
-    limit, divergence = most_revolutions(config), config["analysis"]["divergence"]
-    revolutions, confirmation = config["solver"]["revolutions"], divergence["confirmation_revolutions"]
+    limit, divergence = most_revolutions(config), config.analysis.divergence
+    revolutions, confirmation = config.solver.revolutions, divergence.confirmation_revolutions
     setting = f"analysis.divergence.confirmation_revolutions = {confirmation}"
     for key, number in ((f"solver.revolutions = {revolutions}", revolutions), (setting, confirmation)):
         if number > limit:
             yield f"{key}: must be at most {limit}, a run keeps a sample for each element and revolution"
-    fewest = revolutions + divergence["revolutions"]
+    fewest = revolutions + divergence.revolutions
     if 0 < confirmation < fewest:
         sum_of = "solver.revolutions + analysis.divergence.revolutions"
         yield f"{setting}: must be 0, or at least {sum_of} = {fewest}, to show what comes after a run"
@@ -240,23 +246,23 @@ def _revolutions(config: Config) -> Iterator[str]:
 @reads("analysis", "coatings", "speeds")
 def _histories(config: Config) -> Iterator[str]:
     cases, grid = set(coating_cases(config)), set(speeds(config))
-    for index, entry in enumerate(config["analysis"]["histories"]):
+    for index, entry in enumerate(config.analysis.histories):
         key, case = f"analysis.histories[{index}]", listed_case(entry)
-        f_omega = round(entry["f_omega"], SPEED_DECIMALS)
+        f_omega = round(entry.f_omega, SPEED_DECIMALS)
         if (case, f_omega) in HISTORIES:  # the paper's, which a study of other coatings or speeds leaves out
             continue
         if case not in cases:
             yield f"{key} = {case.name}: must be one of the coatings, add it there or drop it here"
         if f_omega not in grid:
             requirement = "one of the speeds, add it to speeds.extra or drop it here"
-            yield f"{key}.f_omega = {entry['f_omega']:g}: must be {requirement}"
+            yield f"{key}.f_omega = {entry.f_omega:g}: must be {requirement}"
 
 
 @reads("analysis", "casings", "coatings", "speeds")
 def _crossings(config: Config) -> Iterator[str]:
     fastest, orders = speeds(config)[-1], {}
     for name in used_casings(config):
-        has_orders = "peak_orders" in config["casings"][name]
+        has_orders = config.casings[name].peak_orders
         key = f"casings.{name}.peak_orders" if has_orders else "analysis.peaks.orders"
         orders[key] = peak_orders(config, name)
     for key, index, order in ((key, *pair) for key, values in orders.items() for pair in enumerate(values)):

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from bladerub.io.errors import BadInput
+from bladerub.io.errors import BadInput, format_value
 
 _MOST_REPORTED = 40
 
@@ -73,10 +73,3 @@ def key_path(parts: Iterable[Any]) -> str:
 def top_key(problem: str) -> str:
     """Return the key at the top of the config that the text of a problem begins with."""
     return re.findall(r"^\w*", problem)[0]
-
-
-def format_value(value: Any) -> str:
-    """Write a value of the config on one short line of printable characters."""
-    text = f'"{value}"' if isinstance(value, str) else repr(value)
-    text = " ".join("".join(char if char.isprintable() else " " for char in text).split())
-    return text if len(text) <= 60 else text[:57] + "..."

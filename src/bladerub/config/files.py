@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value, key_path
+from bladerub.config.errors import UNKNOWN, ConfigError, Location, key_path
+from bladerub.io.errors import format_value
 
 LARGEST_FILE = 1_000_000  # bytes
 MOST_VALUES = 100_000  # in a file, those of an alias counted wherever it is used

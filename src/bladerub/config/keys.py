@@ -10,8 +10,8 @@ import annotated_types as at
 from pydantic import Tag
 from pydantic.fields import FieldInfo
 
-from bladerub.config import units
-from bladerub.config.fields import ASCENDING, UNIQUE, Form, Limit, OneOf, Section, Unit
+from bladerub.settings import units
+from bladerub.settings.fields import ASCENDING, UNIQUE, Form, Limit, OneOf, Section, Unit
 
 _KINDS = {float: "a number", int: "a whole number", str: "text", bool: "true or false"}
 NUMBERS = ("a number", "a whole number")
@@ -96,7 +96,7 @@ class Key:
         return f"must be {self.allowed()}{behind}"
 
     def convert(self, quantity: units.Quantity, reference: units.Reference) -> float:
-        """Return a quantity as a plain number, see `bladerub.config.units.convert`.
+        """Return a quantity as a plain number, see `bladerub.settings.units.convert`.
 
         Raises ValueError that says what the quantity is and what it must be, and as the `reference`.
         """

@@ -5,14 +5,12 @@ there: its histories of runs that are not planned have no effect, and casings th
 orders have others (`bladerub.study.orders`).
 """
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
+from bladerub.settings.study import Config
 from bladerub.study.casings import nodal_diameters
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speed_name, speeds
 from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
-
-Config = Mapping[str, Any]
 
 
 def notes(config: Config) -> list[str]:
@@ -23,8 +21,7 @@ def notes(config: Config) -> list[str]:
 def _histories(config: Config) -> Iterator[str]:
     cases, grid = set(coating_cases(config)), set(speeds(config))
     listed = [
-        (listed_case(entry), round(entry["f_omega"], SPEED_DECIMALS))
-        for entry in config["analysis"]["histories"]
+        (listed_case(entry), round(entry.f_omega, SPEED_DECIMALS)) for entry in config.analysis.histories
     ]
     lost = [f"{case.name}/{speed_name(f)}" for case, f in listed if case not in cases or f not in grid]
     if lost:
@@ -33,20 +30,20 @@ def _histories(config: Config) -> Iterator[str]:
 
 
 def _orders(config: Config) -> Iterator[str]:
-    general = config["analysis"]["peaks"]["orders"]
+    general = config.analysis.peaks.orders
     for name in used_casings(config):
         orders = peak_orders(config, name)
-        if orders != general and "peak_orders" not in config["casings"][name]:
+        if orders != general and not config.casings[name].peak_orders:
             yield f"casings.{name}.peak_orders: {orders}, instead of {general} of analysis.peaks.orders"
 
 
 def _scaled_casings(config: Config) -> Iterator[str]:
     """Give the sizes that ``contact.scale`` makes of casings."""
-    factor = config["contact"].get("scale", UNSCALED)["length"]
+    factor = config.contact.plugged("scale", UNSCALED).length
     for name in used_casings(config):
-        casing = config["casings"][name]
-        keys = (key for key in ("amplitude", "interference") if key in casing)
-        sizes = [f"{key} {1e3 * factor * casing[key]:.4g} mm" for key in keys]
+        casing = config.casings[name]
+        keys = (key for key in ("amplitude", "interference") if casing.plugged(key) is not None)
+        sizes = [f"{key} {1e3 * factor * getattr(casing, key):.4g} mm" for key in keys]
         if factor != 1 and sizes:
             yield f"contact.scale.length = {factor:g}: casing {name} has {' and '.join(sizes)}"
 
@@ -54,8 +51,8 @@ def _scaled_casings(config: Config) -> Iterator[str]:
 def _idle_orders(config: Config) -> Iterator[str]:
     """Name the casings that do not excite the orders that somebody asks for."""
     for name in used_casings(config):
-        orders, diameters = peak_orders(config, name), nodal_diameters(config["casings"][name])
-        idle = [order for order in orders if not excites(config["casings"][name], order)]
+        orders, diameters = peak_orders(config, name), nodal_diameters(config.casings[name])
+        idle = [order for order in orders if not excites(config.casings[name], order)]
         if idle:
             why = f"nodal diameters {diameters} of casing {name} do not excite {idle}"
             proposal = f"{excited_orders(config, name)} as casings.{name}.peak_orders"

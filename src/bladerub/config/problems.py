@@ -10,12 +10,13 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from bladerub.config import units
-from bladerub.config.errors import format_value, key_path, top_key
-from bladerub.config.fields import OWN
+from bladerub.config.errors import key_path, top_key
 from bladerub.config.files import decimal_form, yaml_reading
 from bladerub.config.keys import NUMBERS, Key, key_of
-from bladerub.config.models.study import whole
+from bladerub.io.errors import format_value
+from bladerub.settings import units
+from bladerub.settings.fields import OWN
+from bladerub.settings.study import whole
 
 _RELATIONS = {"at most": operator.le, "below": operator.lt, "at least": operator.ge, "above": operator.gt}
 

@@ -1,17 +1,17 @@
 """Quantities typed with a unit become the numbers that they stand for, wherever a config has a number."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 from bladerub.blade.cache import first_frequency, rounded_frequency
-from bladerub.config import units
 from bladerub.config.errors import top_key
 from bladerub.config.files import Located
 from bladerub.config.keys import Key, key_of
-from bladerub.config.models.quantities import QUANTITIES
-from bladerub.config.models.study import whole
 from bladerub.config.problems import problems
+from bladerub.settings import units
+from bladerub.settings.quantities import QUANTITIES
+from bladerub.settings.study import Config, typed, whole
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, modulus_unit
 
 _READS = {"f1": {"blade", "reduction"}, "modulus_unit": {"contact"}, "blade lengths": {"blade"}}
@@ -22,8 +22,8 @@ class Unknown(ValueError):
     """The config does not say what a reference is, for a problem of its own."""
 
 
-def references(config: Mapping[str, Any], f1_hz: float | None = None) -> units.Reference:
-    """Return the sizes of a study that quantities are divided by, as `bladerub.config.units.convert` asks.
+def references(config: Config | None, f1_hz: float | None = None) -> units.Reference:
+    """Return the sizes of a study that quantities are divided by, as `bladerub.settings.units.convert` asks.
 
     The first frequency is that of the blade of the config unless `f1_hz` is given: ValueError or OSError if
     that cannot be computed.
@@ -35,8 +35,8 @@ def references(config: Mapping[str, Any], f1_hz: float | None = None) -> units.R
         if name == "modulus_unit":
             return modulus_unit(config)
         if name == "blade lengths":
-            return float(config["blade"]["length"])
-        return float(config["contact"].get("scale", UNSCALED)[name])
+            return config.blade.length
+        return getattr(config.contact.plugged("scale", UNSCALED), name)
 
     return size
 
@@ -64,9 +64,7 @@ def key_at(path: str) -> Key:
     return key
 
 
-def converted(
-    config: Located, kind: Any = None, study: Mapping[str, Any] | None = None
-) -> tuple[Located, list[str]]:
+def converted(config: Located, kind: Any = None, study: Config | None = None) -> tuple[Located, list[str]]:
     """Return a config with plain numbers instead of quantities, and why a reference is not known, if so.
 
     A quantity of another kind than it must be, or of a reference that is not known, stays as it is: its model
@@ -82,9 +80,7 @@ def converted(
     @cache
     def size(name: str) -> float | None:
         try:
-            if not study:
-                _require_sound(config, _READS.get(name, {"contact"}))
-            return references(study or config.plain())(name)
+            return references(study or _sound(config, _READS.get(name, {"contact"})))(name)
         except Unknown:
             return None
         except (ValueError, OSError) as error:
@@ -112,14 +108,20 @@ def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
     return add
 
 
-def _require_sound(config: Located, parts: set[str]) -> None:
-    """Raise `Unknown` where a key at the top in `parts` has a problem, but for quantities to be converted."""
+def _sound(config: Located, parts: set[str]) -> Config:
+    """Make a config of the keys at the top in `parts`; quantities to be converted have any value.
+
+    Raises `Unknown` where one of them has another problem.
+    """
     from bladerub.config.checks import check  # takes half a second to import
 
     values = _converted(config, key_of(whole()), unknown, lambda key: key.highest).plain()
     others = whole().model_fields.keys() - parts
-    if any(top_key(text) in parts for text in problems(values)) or check(values, others):
+    if parts - values.keys() or any(top_key(text) in parts for text in problems(values)):
         raise Unknown
+    if check(sound := typed(values, others), others):
+        raise Unknown
+    return sound
 
 
 def unknown(name: str) -> float:

@@ -8,12 +8,15 @@ import json
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bladerub.config import files
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem, top_key
 from bladerub.config.files import Located
 from bladerub.io.folders import ROOT
+
+if TYPE_CHECKING:
+    from bladerub.settings.study import Config
 
 SCHEMA = ROOT / "config" / "schema.json"
 """What any part of bladerub reads in a config, for editors."""
@@ -26,12 +29,12 @@ def load(*paths: str | Path) -> dict[str, Any]:
 
 def is_whole(path: str | Path) -> bool:
     """Return whether the file at `path` has every section of a config; raises as `load`."""
-    from bladerub.config.models.study import required
+    from bladerub.settings.study import required
 
     return required() <= load(path).keys()
 
 
-def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> "Config":
     """Read a config as `bladerub.config.files.compose` and `validate` it: arguments and errors are theirs."""
     return read_with_notes(*paths, command_line=command_line)[0]
 
@@ -41,7 +44,7 @@ def read_with_notes(
     command_line: Mapping[str, Any] | None = None,
     source: str = "--config",
     is_checked: bool = False,
-) -> tuple[dict[str, Any], list[str]]:
+) -> "tuple[Config, list[str]]":
     """Read a config as `read`; return it, and the lines of `bladerub.config.notes`.
 
     One that `is_checked`, as by the process that started this one, is not checked again and has no notes.
@@ -51,23 +54,24 @@ def read_with_notes(
     located = Located({k: v for k, v in located.content.items() if k not in absent}, located.location)
     if is_checked:
         from bladerub.config.quantities import converted
+        from bladerub.settings.study import typed
 
-        return converted(located)[0].plain(), []
-    values, notes = _validated(located, "")
-    return values, [*(f"{name}: left out, what reads it is not installed" for name in absent), *notes]
+        return typed(converted(located)[0].plain()), []
+    config, notes = _validated(located, "")
+    return config, [*(f"{name}: left out, what reads it is not installed" for name in absent), *notes]
 
 
-def vary(config: Mapping[str, Any], *variations: Located) -> Located:
+def vary(config: "Config", *variations: Located) -> Located:
     """Lay variations of a plan over a config, without a check."""
-    varied = Located.of(config, UNKNOWN)
+    varied = Located.of(config.plain(), UNKNOWN)
     for variation in variations:
         if variation.content is not None:
             varied = varied.merged(variation)
     return varied
 
 
-def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[str, Any]:
-    """Check a config by its models and for what they cannot say; return its values.
+def validate(config: Located | Mapping[str, Any], variation: str = "") -> "Config":
+    """Check a config by its models and for what they cannot say, and return it.
 
     It is from `bladerub.config.files.compose`, or values alone, whose problems then have no file and line.
     The text of each problem begins with `variation`, the name of this variation of the study. Raises
@@ -77,40 +81,41 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[s
     return _validated(config, variation)[0]
 
 
-def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dict[str, Any], list[str]]:
-    """Check a config as `validate`; return its values and the notes on it."""
+def _validated(config: Located | Mapping[str, Any], variation: str) -> "tuple[Config, list[str]]":
+    """Check a config as `validate`; return it and the notes on it."""
     # it takes half a second to import, `bladerub --help` and jobs on a cluster do without
     from bladerub.config import quantities
     from bladerub.config.checks import check
-    from bladerub.config.models.study import required
     from bladerub.config.notes import notes
     from bladerub.config.problems import problems as problems_of
+    from bladerub.settings.study import required, typed
 
-    typed = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
-    located, problems = quantities.converted(typed)
+    given = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
+    located, problems = quantities.converted(given)
     values, locations = located.plain(), located.locations()
     problems += problems_of(values)
     broken = (required() - values.keys()) | set(map(top_key, problems))
-    problems += check(values, broken)
+    checked = typed(values, broken)
+    problems += check(checked, broken)
     if problems:
-        as_typed = quantities.as_typed(typed, located)
+        as_typed = quantities.as_typed(given, located)
         raise ConfigError(
             Problem(location_of(text, locations), (f"{variation}: " if variation else "") + as_typed(text))
             for text in dict.fromkeys(problems)
         )
-    return values, notes(values)
+    return checked, notes(checked)
 
 
 def _composed(*paths: str | Path, **command_line: Any) -> Located:
     """Lay files and the command line over the defaults of what plugs in."""
-    from bladerub.config.models.study import defaults
+    from bladerub.settings.study import defaults
 
     return Located.of(defaults(), UNKNOWN).merged(files.compose(*paths, **command_line))
 
 
 def _absent(config: Located) -> list[str]:
     """List the sections that the published schema has, and no part of this installation."""
-    from bladerub.config.models.study import whole
+    from bladerub.settings.study import whole
 
     unknown = [name for name in config.content if name not in whole().model_fields]
     if not unknown or not SCHEMA.is_file():

@@ -7,7 +7,6 @@ name is theirs. Other laws, more nodes and a further motion plug in (``VARIANTS`
 
 import importlib
 import math
-from collections.abc import Mapping
 from types import ModuleType
 from typing import Any
 
@@ -17,6 +16,7 @@ from bladerub import plugins
 from bladerub.contact import motion
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.numerics.lanes import USUAL
+from bladerub.settings.fields import Section
 
 NAMES = (PLASTIC.name, *sorted(plugins.offered("LAWS")))
 """Laws that a config may name."""
@@ -27,12 +27,13 @@ _ALONE = {
 }
 
 
-def element_law(entry: Mapping[str, Any]) -> ElementLaw:
-    """Describe the law of the block ``contact.law`` of a config, the paper's where it names none.
+def element_law(law: Section | None) -> ElementLaw:
+    """Describe the law that ``contact.law`` of a config is, the paper's where there is none.
 
     Raises `ValueError`, which begins with the key, if there is none such or a parameter is wrong.
     """
-    return PLASTIC if entry in ({}, {"name": PLASTIC.name}) else _plugged_in("law").element_law(entry)
+    is_paper = law is None or law.plain() in ({}, {"name": PLASTIC.name})
+    return PLASTIC if is_paper else _plugged_in("law").element_law(law)
 
 
 def source_of(law: ElementLaw) -> str:

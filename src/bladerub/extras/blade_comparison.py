@@ -1,7 +1,6 @@
 """Two blades compared: their figures, and the same coatings at the speeds that both studies have."""
 
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -10,6 +9,7 @@ from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.frequencies import tip_lean
 from bladerub.blade.model import ReducedBlade
+from bladerub.settings.study import Config
 from bladerub.study import divergence
 from bladerub.study.maps import CoatingMap
 
@@ -60,7 +60,7 @@ def radial_compliance(blade: ReducedBlade) -> float:
 
 
 def runs(
-    config: Mapping[str, Any],
+    config: Config,
     pairs: Iterable[tuple[CoatingMap, CoatingMap]],
     lengths: tuple[float, float],
 ) -> pd.DataFrame:
@@ -80,7 +80,7 @@ def runs(
     return pd.concat(tables or [pd.DataFrame(columns=RUN_COLUMNS)], ignore_index=True)[RUN_COLUMNS]
 
 
-def _of(config: Mapping[str, Any], coating: CoatingMap, length: float) -> pd.DataFrame:
+def _of(config: Config, coating: CoatingMap, length: float) -> pd.DataFrame:
     case = coating.case
     return pd.DataFrame(
         {

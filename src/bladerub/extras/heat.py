@@ -1,6 +1,5 @@
 """What heat changes in one run: vibration, temperature, and how soon it diverges."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +11,7 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, ElementLaw, RunSpec
 from bladerub.extras.law_reading import described_law
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
 
@@ -47,7 +47,7 @@ COLUMNS = [
 ]
 
 
-def table(config: Mapping[str, Any], blade: ReducedBlade) -> pd.DataFrame:
+def table(config: Config, blade: ReducedBlade) -> pd.DataFrame:
     """Simulate the run of each of `CASES`, and a longer one where it grows; columns `COLUMNS`.
 
     Amplitude, wear and temperature are those of the run itself, the verdict is that of the longer one.
@@ -67,8 +67,8 @@ def _law(values: tuple[float, float, float] | None) -> ElementLaw:
     return described_law("thermal", LAYER | dict(zip(VARIED, values, strict=True)))
 
 
-def _measured(config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec) -> tuple[Any, ...]:
-    settings = config["analysis"]["divergence"]
+def _measured(config: Config, blade: ReducedBlade, spec: RunSpec) -> tuple[Any, ...]:
+    settings = config.analysis.divergence
     result, longer = simulate(blade, spec), None
     if needs_confirmation(result.revolution_amplitude, result.status, settings):
         longer = simulate(blade, confirmation_spec(spec, settings)).revolution_amplitude

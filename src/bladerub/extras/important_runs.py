@@ -1,10 +1,9 @@
 """The runs that tables and claims rest on, which are worth repetitions and a check of their error."""
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
+from bladerub.settings.analysis import Peaks
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, between, keeps_history
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
@@ -15,12 +14,12 @@ LOBES = (*FIVE_LOBES, *((f_omega - NEAR, f_omega + NEAR) for f_omega in (TEN_LOB
 """Speeds between which the claims on worn lobes look."""
 
 
-def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
+def chosen(config: Config, coating: CoatingMap) -> np.ndarray:
     """Choose such speeds (n,) of a coating, ascending, normalised: `judged`, and those of claims on lobes."""
     return np.union1d(judged(config, coating), coating.f_omega[on_lobes(coating.case, coating.f_omega)])
 
 
-def judged(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
+def judged(config: Config, coating: CoatingMap) -> np.ndarray:
     """Choose those of which divergence counts as well.
 
     They are its peaks, or where its orders meet C1 if it has none, with their neighbours in speed, and those
@@ -29,20 +28,20 @@ def judged(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
     f_omega = coating.f_omega
     mask = with_history(config, coating.case, f_omega)
     settings = peak_settings(config, coating.case.casing)
-    for order in settings["orders"]:
+    for order in settings.orders:
         index = nearest_speed(coating, order, settings)
         mask[max(index - 1, 0) : index + 2] = True
     return f_omega[mask]
 
 
-def nearest_speed(coating: Response, order: float, settings: Mapping[str, Any]) -> int:
+def nearest_speed(coating: Response, order: float, settings: Peaks) -> int:
     """Return the place among the speeds of the peak or, where there is none, of where the order meets C1."""
     f_peak = peak(coating, order, settings).f_omega
     distance = order * coating.f_omega - coating.C1 if np.isnan(f_peak) else coating.f_omega - f_peak
     return int(np.argmin(np.abs(distance)))
 
 
-def with_history(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
+def with_history(config: Config, case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
     """Which (n,) of the speeds `f_omega` have a history."""
     return np.array([keeps_history(config, case, float(f)) for f in f_omega])
 

@@ -19,6 +19,7 @@ from bladerub.contact.laws import NAMES
 from bladerub.contact.spec import PLASTIC, ElementLaw
 from bladerub.io import sources
 from bladerub.io.folders import PACKAGE, study_folder
+from bladerub.settings.fields import Section
 
 CONTRACT = (
     *("Element", "element", "return_mapping", "tangent", "elastic_force"),
@@ -56,8 +57,13 @@ def law_digest(law: ElementLaw) -> dict[str, str]:
     return plugs_in | ({"law_imports": sources.digest_behind(*imported)} if imported else {})
 
 
-def element_law(entry: Mapping[str, Any]) -> ElementLaw:
-    """Describe the law of the block ``contact.law`` of a config.
+def element_law(settings: Section) -> ElementLaw:
+    """Describe the law of ``contact.law`` of a config; raises as `law_of`."""
+    return law_of(settings.plain())
+
+
+def law_of(entry: Mapping[str, Any]) -> ElementLaw:
+    """Describe a law by the keys of ``contact.law``, checked or not.
 
     Raises `ValueError`, which begins with the key, if a file cannot be read or is no law, or as
     `described_law`.
@@ -86,7 +92,7 @@ def file_of(name: str) -> Path:
 
 
 def parameters_in(entry: Mapping[str, Any]) -> Mapping[str, Parameter]:
-    """Return the parameters of the law of the block ``contact.law``; raises as `element_law`, or OSError."""
+    """Return the parameters of the law of the block ``contact.law``; raises as `law_of`, or OSError."""
     if entry.get("file"):
         source = file_of(entry["file"]).read_text(encoding="utf-8")
     else:

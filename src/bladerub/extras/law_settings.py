@@ -7,11 +7,11 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
-from bladerub.config import units
-from bladerub.config.fields import Form, Omitted, Section, Unit, disagreement
 from bladerub.config.keys import Key
 from bladerub.config.quantities import unknown
 from bladerub.extras.law_reading import file_of, parameters_in
+from bladerub.settings import units
+from bladerub.settings.fields import Form, Omitted, Section, Unit, disagreement
 
 
 class Law(Section):

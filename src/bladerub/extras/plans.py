@@ -1,6 +1,5 @@
 """Plans that vary a config, or describe what is beside the study: YAML files of their own models."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +9,10 @@ from bladerub.config.files import Located
 from bladerub.config.problems import problems
 from bladerub.config.quantities import converted
 from bladerub.config.read import location_of
+from bladerub.settings.study import Config
 
 
-def read_plan(
-    path: str | Path, kind: Any, key: str | None = None, study: Mapping[str, Any] | None = None
-) -> Located:
+def read_plan(path: str | Path, kind: Any, key: str | None = None, study: Config | None = None) -> Located:
     """Read and check a plan, which varies a config: the YAML file at `path`, of the model `kind`.
 
     `key` is that of the config that names the file, reported if it cannot be read; `study` the config that it

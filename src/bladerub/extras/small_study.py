@@ -1,15 +1,16 @@
 """A small study beside the main one, from the runs to the findings, by the same functions."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_reduced_blade
+from bladerub.settings.study import Config
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.cache import blade_digest
 from bladerub.study.findings.claim import claim_of
@@ -33,7 +34,7 @@ class SmallStudy(NamedTuple):
 
 
 def conduct(
-    config: Mapping[str, Any],
+    config: Config,
     model: str | Path,
     rom_accuracy: str | Path,
     folder: str | Path | None = None,
@@ -65,7 +66,7 @@ def conduct(
 
 
 def map_coating(
-    config: Mapping[str, Any],
+    config: Config,
     case: CoatingCase,
     blade: ReducedBlade,
     digest: str,
@@ -84,10 +85,10 @@ def map_coating(
 
 
 def _in_memory(
-    config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, report: Callable[[object], None]
+    config: Config, case: CoatingCase, blade: ReducedBlade, report: Callable[[object], None]
 ) -> tuple[CoatingMap, int]:
     """Do as `map_coating` without files."""
     runs, longer = compute_all(config, coating_plan(config, case), blade, report=report)
-    planned, prominence = speeds(config), config["analysis"]["lobe_prominence"]
+    planned, prominence = speeds(config), config.analysis.lobe_prominence
     coating_map = collect(case, planned, first_frequency(blade, planned), runs, longer, prominence)
     return replace(coating_map, wear_node=None), len(runs) + sum(run is not None for run in longer)

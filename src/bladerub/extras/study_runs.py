@@ -1,8 +1,8 @@
 """The runs of a study one by one, for what draws some of them."""
 
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, coating_cases, speed_name, speeds
 from bladerub.study.solver import row_of
 
@@ -21,7 +21,7 @@ class StudyRun(NamedTuple):
         return self.row_name or f"{self.case.name}/{speed_name(self.f_omega)}"
 
 
-def study_runs(config: Mapping[str, Any]) -> list[StudyRun]:
+def study_runs(config: Config) -> list[StudyRun]:
     """List every run of the study."""
     row = row_of(config)
     return [StudyRun(case, f_omega, row) for case in coating_cases(config) for f_omega in speeds(config)]

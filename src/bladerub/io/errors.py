@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from bladerub.plugins import MissingPart
 
@@ -73,3 +74,10 @@ def exit_on_error() -> Iterator[None]:
     except (OSError, BadInput, MissingPart) as error:
         print(message_for(error), file=sys.stderr)
         sys.exit(2)
+
+
+def format_value(value: Any) -> str:
+    """Write a value of the config on one short line of printable characters."""
+    text = f'"{value}"' if isinstance(value, str) else repr(value)
+    text = " ".join("".join(char if char.isprintable() else " " for char in text).split())
+    return text if len(text) <= 60 else text[:57] + "..."

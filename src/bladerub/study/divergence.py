@@ -1,13 +1,14 @@
 """Divergence: the table of which runs' amplitudes keep growing, as `bladerub.study.growth` defines it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import asdict
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from bladerub.settings.analysis import Divergence
+from bladerub.settings.study import Config
 from bladerub.study.growth import Verdict, judge
 from bladerub.study.maps import CoatingMap
 from bladerub.study.variants import with_variant
@@ -25,7 +26,7 @@ is one; ``lobes`` and the harmonic of the wear are of the study's own run.
 """
 
 
-def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
+def table(config: Config, maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Judge every run by ``analysis.divergence``: a row each, with `COLUMNS`, see `with_variant`."""
     tables = []
     for coating in maps:
@@ -38,12 +39,11 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
     return with_variant(pd.concat(tables, ignore_index=True), COLUMNS)
 
 
-def verdicts(config: Mapping[str, Any], coating: CoatingMap) -> list[Verdict]:
+def verdicts(config: Config, coating: CoatingMap) -> list[Verdict]:
     """Judge every run of a coating, by its longer run if it has one."""
     runs = zip(coating.revolution_amplitude, coating.status, coating.confirmation_amplitude, strict=True)
-    settings = tuple(config["analysis"]["divergence"].items())
     return [
-        _judged(amplitude.tobytes(), str(status), settings, longer.tobytes())
+        _judged(amplitude.tobytes(), str(status), config.analysis.divergence, longer.tobytes())
         for amplitude, status, longer in runs
     ]
 
@@ -54,5 +54,5 @@ def in_a_word(verdict: Verdict) -> str:
 
 
 @lru_cache(maxsize=1 << 15)  # parts of a study and its draws have most runs in common
-def _judged(amplitude: bytes, status: str, settings: tuple[tuple[str, float], ...], longer: bytes) -> Verdict:
-    return judge(np.frombuffer(amplitude), status, dict(settings), np.frombuffer(longer))
+def _judged(amplitude: bytes, status: str, settings: Divergence, longer: bytes) -> Verdict:
+    return judge(np.frombuffer(amplitude), status, settings, np.frombuffer(longer))

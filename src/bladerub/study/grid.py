@@ -5,13 +5,15 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from bladerub import plugins
 from bladerub.contact import laws
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec, TipProfile
+from bladerub.settings.fields import Section
+from bladerub.settings.study import Config
 from bladerub.study.casings import casing_spec
 
 SPEED_DECIMALS = 6
@@ -20,7 +22,16 @@ SPEED_DECIMALS = 6
 SAME_SPEED = 1e-6
 """Speeds closer than this are the same point of the grid."""
 
-UNSCALED = {"length": 1.0, "modulus": 1.0, "time": 1.0}
+
+class Scale(NamedTuple):
+    """Factors of lengths, of ``contact.modulus_unit`` and of times, see `run_spec`."""
+
+    length: float = 1.0
+    modulus: float = 1.0
+    time: float = 1.0
+
+
+UNSCALED = Scale()
 """``contact.scale`` where the config has none: all its values are absolute."""
 
 MAX_COATINGS = 5000
@@ -93,15 +104,15 @@ class CoatingCase:
         return f"{self.casing}_{layer}_{angle}" + (f"_{self.variant}" if self.variant else "")
 
 
-def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
+def coating_cases(config: Config) -> list[CoatingCase]:
     """List every coating of the config, in its order.
 
     Raises `ValueError`, naming the entry, if a coating is listed twice, or there are more than
     `MAX_COATINGS`.
     """
     cases: dict[str, CoatingCase] = {}
-    for index, entry in enumerate(config["coatings"]):
-        n_cases = len(cases) + math.prod(len(entry[key]) for key in _VARIED if key in entry)
+    for index, entry in enumerate(config.coatings):
+        n_cases = len(cases) + math.prod(map(len, _values(entry).values()))
         if n_cases > MAX_COATINGS:
             raise ValueError(
                 f"coatings[{index}]: brings the coatings to {n_cases}, all combinations counted; must be "
@@ -114,25 +125,33 @@ def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
     return list(cases.values())
 
 
-def cases_of(entry: Mapping[str, Any]) -> list[CoatingCase]:
+def cases_of(entry: Section) -> list[CoatingCase]:
     """List the combinations that one entry of ``coatings`` stands for."""
-    varied = [key for key in _VARIED if key in entry]
-    combinations = itertools.product(*(entry[key] for key in varied))
-    return [listed_case({**entry, **dict(zip(varied, values, strict=True))}) for values in combinations]
+    varied = _values(entry)
+    combinations = itertools.product(*varied.values())
+    return [_case(entry.casing, dict(zip(varied, values, strict=True))) for values in combinations]
 
 
-def listed_case(entry: Mapping[str, Any]) -> CoatingCase:
+def listed_case(entry: Section) -> CoatingCase:
     """Read one coating: ``casing, E, K`` with ``theta`` or ``friction``, or ``casing, coating, friction``.
 
     Each may have keys of `OWN` as well.
     """
-    casing, values = entry["casing"], {key: float(entry[key]) for key in _LAYER if key in entry}
-    make = CoatingCase.coulomb if "friction" in values else CoatingCase
-    case = (CoatingCase.rigid if "coating" in entry else make)(casing, **values)
-    return case.with_own(**{key: entry[key] for key in OWN if key in entry})
+    return _case(entry.casing, _values(entry))
 
 
-def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
+def _values(entry: Section) -> dict[str, Any]:
+    return {key: value for key in _VARIED if (value := getattr(entry, key, None)) is not None}
+
+
+def _case(casing: str, values: Mapping[str, float]) -> CoatingCase:
+    layer = {key: float(values[key]) for key in _LAYER if key in values}
+    make = CoatingCase.coulomb if "friction" in layer else CoatingCase
+    case = (make if "E" in layer else CoatingCase.rigid)(casing, **layer)
+    return case.with_own(**{key: values[key] for key in OWN if key in values})
+
+
+def case_from_name(config: Config, name: str) -> CoatingCase:
     """Find the coating called `name` among those of the study and those that plug in (``COATINGS``).
 
     Raises `ValueError` if none is.
@@ -149,15 +168,15 @@ def between(f_omega: np.ndarray, low: float, high: float) -> np.ndarray:
     return (f_omega >= low - SAME_SPEED) & (f_omega <= high + SAME_SPEED)
 
 
-def speeds(config: Mapping[str, Any]) -> list[float]:
+def speeds(config: Config) -> list[float]:
     """List the speeds of the study, sorted, each once, normalised.
 
     Raises `ValueError` if two are so close that their runs would have the same file name.
     """
-    grid = config["speeds"]
-    n_steps = math.floor((grid["stop"] - grid["start"]) / grid["step"] + 1e-6)
-    regular = [grid["start"] + index * grid["step"] for index in range(n_steps + 1)]
-    distinct = sorted({round(float(f), SPEED_DECIMALS) for f in [*regular, *grid["extra"]]})
+    grid = config.speeds
+    n_steps = math.floor((grid.stop - grid.start) / grid.step + 1e-6)
+    regular = [grid.start + index * grid.step for index in range(n_steps + 1)]
+    distinct = sorted({round(float(f), SPEED_DECIMALS) for f in [*regular, *grid.extra]})
     for slower, faster in itertools.pairwise(distinct):
         if speed_name(slower) == speed_name(faster):
             raise ValueError(f"speeds: {slower:g} and {faster:g} are closer than 0.0001; leave one out")
@@ -169,68 +188,64 @@ def speed_name(f_omega: float) -> str:
     return f"{f_omega:.4f}"
 
 
-def modulus_unit(config: Mapping[str, Any]) -> float:
+def modulus_unit(config: Config) -> float:
     """Return what E = 1 and K = 1 are in this study, Pa."""
-    scale = config["contact"].get("scale", UNSCALED)
-    return float(config["contact"]["modulus_unit"] * scale["modulus"])
+    return float(config.contact.modulus_unit * config.contact.plugged("scale", UNSCALED).modulus)
 
 
-def element_law(config: Mapping[str, Any]) -> ElementLaw:
+def element_law(config: Config) -> ElementLaw:
     """Describe the law of the elements that the config names, by default plasticity with linear hardening.
 
     Raises `ValueError` as `bladerub.contact.laws.element_law`.
     """
-    return laws.element_law(config["contact"].get("law", {}))
+    return laws.element_law(config.contact.plugged("law"))
 
 
-def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> RunSpec:
+def run_spec(config: Config, case: CoatingCase, f_omega: float) -> RunSpec:
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
     The one place where values that the config gives in blade lengths, degrees or for the stand-in of the
     paper's blade (``contact.scale``) become SI of this blade. Raises `KeyError` if it has no such casing,
     `ValueError` as `casing_spec`.
     """
-    contact, solver = {**config["contact"], **case.own}, config["solver"]
-    casing = {**config["casings"][case.casing], **case.own}
-    length = float(config["blade"]["length"])
-    scale = contact.get("scale", UNSCALED)
+    contact, solver, own = config.contact, config.solver, case.own
+    casing, length = config.casings[case.casing], config.blade.length
+    if "interference" in own:
+        casing = casing.replaced("interference", own["interference"])
+    scale = contact.plugged("scale", UNSCALED)
     return RunSpec(
-        casing=casing_spec(case.casing, casing, scale["length"]),
+        casing=casing_spec(case.casing, casing, scale.length),
         coating=Coating(
             E=case.E,
             K=case.K,
             theta=case.theta,
-            yield_stress=float(contact["yield_stress"]),
+            yield_stress=contact.yield_stress,
             modulus_unit=modulus_unit(config),
-            thickness=float(contact["layer_thickness"] * scale["length"]),
-            n_elements=int(contact["elements"]),
+            thickness=own.get("layer_thickness", contact.layer_thickness) * scale.length,
+            n_elements=contact.elements,
             law=case.law,
             element_law=PLASTIC if case.is_rigid else element_law(config),
         ),
         tip=TipProfile(
-            half_width=float(contact["tip_profile"]["half_width"]),
-            edge_drop=float(contact["tip_profile"]["edge_drop"] * scale["length"]),
-            turns=bool(contact.get("tip_turns", False)),
+            half_width=contact.tip_profile.half_width,
+            edge_drop=contact.tip_profile.edge_drop * scale.length,
+            turns=bool(contact.tip_turns),
         ),
-        clearance=(
-            contact["clearance"]["leading_edge"] * length,
-            contact["clearance"]["trailing_edge"] * length,
-        ),
-        damping_ratio=float(contact["damping_ratio"]),
+        clearance=(contact.clearance.leading_edge * length, contact.clearance.trailing_edge * length),
+        damping_ratio=own.get("damping_ratio", contact.damping_ratio),
         f_omega=float(f_omega),
-        revolutions=int(solver["revolutions"]),
-        scheme=solver["scheme"],
-        displacement_limit=solver["displacement_limit"] * length,
-        tolerance=float(solver["tolerance"]),
-        steps_per_element=int(solver.get("steps_per_element", 0)),
-        max_time_step=float(solver.get("max_time_step", math.inf) * scale["time"]),
+        revolutions=solver.revolutions,
+        scheme=solver.scheme,
+        displacement_limit=solver.displacement_limit * length,
+        tolerance=solver.tolerance,
+        steps_per_element=solver.steps_per_element or 0,
+        max_time_step=(solver.max_time_step or math.inf) * scale.time,
     )
 
 
-def keeps_history(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> bool:
+def keeps_history(config: Config, case: CoatingCase, f_omega: float) -> bool:
     """Return whether the config lists this run among those whose whole displacement is kept."""
     return any(
-        round(float(entry["f_omega"]), SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS)
-        and listed_case(entry) == case
-        for entry in config["analysis"]["histories"]
+        round(entry.f_omega, SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS) and listed_case(entry) == case
+        for entry in config.analysis.histories
     )

@@ -25,7 +25,6 @@ The paper calls a run divergent when its amplitude "continuously grows with time
 ``tests/unit/study/test_growth.py`` shows what that finds in 20 and in 60 revolutions, and what it does not.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -35,6 +34,7 @@ import scipy
 
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import digest_of
+from bladerub.settings.analysis import Divergence
 
 RESOLUTION = 1e-3
 """Relative scatter below which amplitudes show nothing: the accuracy of a run is not better."""
@@ -63,26 +63,26 @@ class Verdict(NamedTuple):
     status: str
 
 
-def growth(amplitude: np.ndarray, settings: Mapping[str, Any]) -> Growth:
+def growth(amplitude: np.ndarray, settings: Divergence) -> Growth:
     """Measure the growth at the end of one run.
 
     `amplitude` (n,) is that in each revolution, m; NaN after an early end. `settings` are
-    ``config["analysis"]["divergence"]``.
+    ``config.analysis.divergence``.
     """
     record = amplitude[np.isfinite(amplitude)]
-    window = record[-settings["revolutions"] :]
+    window = record[-settings.revolutions :]
     if window.size and not window.any():
         return Growth(0.0, 0.0, 0.0)
     number = np.flatnonzero(window > 0)
     log_amplitude, time = np.log(window[number]), number - float(window.size - 1)
     if number.size < 2:
         return Growth(float("nan"), float("nan"), float("nan"))
-    (_, slope), (_, margin) = _parameters(time, log_amplitude, 1, settings["confidence"])
+    (_, slope), (_, margin) = _parameters(time, log_amplitude, 1, settings.confidence)
     low, high = np.expm1(slope - margin), np.expm1(slope + margin)
-    threshold, before = settings["growth"], record[: -settings["revolutions"]].max(initial=0.0)
-    outgrown = window.max() > before * (1 + threshold) ** settings["revolutions"]
+    threshold, before = settings.growth, record[: -settings.revolutions].max(initial=0.0)
+    outgrown = window.max() > before * (1 + threshold) ** settings.revolutions
     grows = bool(low > threshold and outgrown)
-    levels_off = grows and _bends_to(threshold, time, log_amplitude, settings["confidence"])
+    levels_off = grows and _bends_to(threshold, time, log_amplitude, settings.confidence)
     return Growth(float(np.expm1(slope)), float(low), float(high), grows, levels_off)
 
 
@@ -122,19 +122,19 @@ def _least_squares(time: tuple[float, ...], degree: int) -> tuple[np.ndarray, np
     return design, np.linalg.pinv(design)
 
 
-def needs_confirmation(amplitude: np.ndarray, status: str, settings: Mapping[str, Any]) -> bool:
+def needs_confirmation(amplitude: np.ndarray, status: str, settings: Divergence) -> bool:
     """Return whether a run of this amplitude and status is to go on for more revolutions."""
-    is_shorter = amplitude.size < settings["confirmation_revolutions"]  # which is 0 where none goes on
+    is_shorter = amplitude.size < settings.confirmation_revolutions  # which is 0 where none goes on
     return is_shorter and status == "completed" and growth(amplitude, settings).grows
 
 
 def judge(
-    amplitude: np.ndarray, status: str, settings: Mapping[str, Any], confirmation: np.ndarray | None = None
+    amplitude: np.ndarray, status: str, settings: Divergence, confirmation: np.ndarray | None = None
 ) -> Verdict:
     """Judge one run.
 
     `amplitude` (n,) is that in each revolution, m; NaN after an early end. `status` is ``completed`` or
-    ``unbounded``, `settings` are ``config["analysis"]["divergence"]``. `confirmation` (m,) is the amplitude
+    ``unbounded``, `settings` are ``config.analysis.divergence``. `confirmation` (m,) is the amplitude
     of the longer run: none, or NaN throughout, if there is no such run.
     """
     confirmed = confirmation is not None and bool(np.isfinite(confirmation).any())
@@ -152,16 +152,16 @@ def judge(
     )
 
 
-def confirmation_spec(spec: RunSpec, settings: Mapping[str, Any]) -> RunSpec:
+def confirmation_spec(spec: RunSpec, settings: Divergence) -> RunSpec:
     """Describe the longer run of `spec`: the same from rest with the same step, for more revolutions."""
-    return replace(spec, revolutions=int(settings["confirmation_revolutions"]))
+    return replace(spec, revolutions=settings.confirmation_revolutions)
 
 
-def confirmation_determinants(settings: Mapping[str, Any]) -> dict[str, Any]:
+def confirmation_determinants(settings: Divergence) -> dict[str, Any]:
     """Return what decides which runs go on, besides the runs themselves; nothing where none is."""
-    if settings["confirmation_revolutions"] == 0:
+    if settings.confirmation_revolutions == 0:
         return {}
-    return {**settings, "definition": growth_digest()}
+    return {**settings.plain(), "definition": growth_digest()}
 
 
 def growth_digest() -> str:

@@ -3,12 +3,14 @@
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from bladerub.blade.files import is_built
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.result import UNBALANCED
 from bladerub.io.errors import is_refused, message_for
+from bladerub.settings.analysis import Divergence
+from bladerub.settings.study import Config
 from bladerub.study.cache import blade_digest
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import damaged_files, read_manifest
@@ -38,7 +40,7 @@ def total(inventories: Iterable[Mapping[str, int]]) -> dict[str, int]:
     return {name: sum(part[name] for part in parts) for name in COUNTS}
 
 
-def current_blade(config: Mapping[str, Any], model: Path) -> tuple[str | None, str | None]:
+def current_blade(config: Config, model: Path) -> tuple[str | None, str | None]:
     """Return the digest of the reduced blade at `model`, or None and why there is none of this config."""
     try:
         if not model.exists():
@@ -70,7 +72,7 @@ class _RunSummary(NamedTuple):
 
 
 def take(
-    config: Mapping[str, Any],
+    config: Config,
     plan: CoatingPlan,
     folder: str | Path,
     digest: str | None,
@@ -83,7 +85,7 @@ def take(
     truncated one. If `thorough`, every number is read, and every byte compared with the checksum in the
     manifest if the job is done.
     """
-    folder, settings = Path(folder), config["analysis"]["divergence"]
+    folder, settings = Path(folder), config.analysis.divergence
     manifest = folder / "manifest.tsv"
     damaged = damaged_files(manifest, thorough=thorough)
     sizes = _sizes(folder)
@@ -146,7 +148,7 @@ def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[
     return summaries
 
 
-def _read(path: Path, settings: Mapping[str, Any], thorough: bool) -> _RunSummary:
+def _read(path: Path, settings: Divergence, thorough: bool) -> _RunSummary:
     """Read the run at `path`, wholly if `thorough`."""
     stored = read_run(path, None if thorough else {"revolution_amplitude"})
     attributes = stored.attributes

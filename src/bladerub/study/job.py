@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from bladerub.contact.result import RunResult
 from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
 from bladerub.io.provenance import provenance
+from bladerub.settings.analysis import Analysis
+from bladerub.settings.study import Config
 from bladerub.study.cache import Entry
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
@@ -65,7 +67,7 @@ class _RunFile(NamedTuple):
 
 
 def compute_missing(
-    config: Mapping[str, Any],
+    config: Config,
     plan: CoatingPlan,
     blade: ReducedBlade,
     folder: str | Path,
@@ -97,7 +99,7 @@ def compute_missing(
 
 
 def compute_all(
-    config: Mapping[str, Any],
+    config: Config,
     plan: CoatingPlan,
     blade: ReducedBlade,
     blade_digest: str = "",
@@ -127,7 +129,7 @@ def compute(
     run: PlannedRun,
     blade: ReducedBlade,
     key: str,
-    analysis: Mapping[str, Any],
+    analysis: Analysis,
     progress: Callable[[int], None] | None = None,
     solve: Solve | None = None,
 ) -> StoredRun:
@@ -169,7 +171,7 @@ def _none(run: PlannedRun, end: _End) -> None:
 class _Job:
     """The job of one coating, see `compute_missing`."""
 
-    config: Mapping[str, Any]
+    config: Config
     plan: CoatingPlan
     blade: ReducedBlade
     blade_digest: str
@@ -178,7 +180,7 @@ class _Job:
 
     def longer(self, run: PlannedRun, end: _End) -> PlannedRun | None:
         """Plan the longer run of one that grows and is to be followed."""
-        grows = run.follow and needs_confirmation(*end, self.config["analysis"]["divergence"])
+        grows = run.follow and needs_confirmation(*end, self.config.analysis.divergence)
         return longer_run(self.config, run) if grows else None
 
     def not_begun(self, ends: Mapping[str, _End]) -> list[PlannedRun]:
@@ -196,7 +198,7 @@ class _Job:
         """Compute what is missing or stale of `runs`, and their `longer` ones; return all by file."""
         entries = {run.file: self.entry(folder, run) for run in runs}
         missing = {run.file: run for run in runs if not entries[run.file].fetch()}
-        origin, run_files, total = provenance(self.config), {}, len(missing)
+        origin, run_files, total = provenance(self.config.plain()), {}, len(missing)
         # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
         cost_left = sum(1 / run.spec.f_omega for run in missing.values())
         cost_done, start = 0.0, time.monotonic()
@@ -228,7 +230,7 @@ class _Job:
 
         The `longer` run of a single blade comes next, if the solver goes on with runs.
         """
-        case, analysis = self.plan.case, self.config["analysis"]
+        case, analysis = self.plan.case, self.config.analysis
 
         def compute_row(run: PlannedRun) -> tuple[StoredRun, float]:
             start = time.monotonic()

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Any, get_type_hints
+from typing import Annotated, get_type_hints
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow, confirmation_path
 from bladerub.study.store import MAPPED, StoredRun, read_run
@@ -86,7 +87,7 @@ DATASETS: dict[str, tuple[tuple[str, ...], str, str]] = {
 
 
 def build_map(
-    config: Mapping[str, Any],
+    config: Config,
     case: CoatingCase,
     blade: ReducedBlade,
     runs_folder: str | Path,
@@ -101,7 +102,7 @@ def build_map(
     """
     rows = sorted(rows, key=lambda row: row.f_omega)
     C1 = first_frequency(blade, [row.f_omega for row in rows])
-    write_map(path, collect_listed(config, case, C1, Path(runs_folder), rows), provenance(config))
+    write_map(path, collect_listed(config, case, C1, Path(runs_folder), rows), provenance(config.plain()))
 
 
 def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:
@@ -110,7 +111,7 @@ def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:
 
 
 def collect_listed(
-    config: Mapping[str, Any], case: CoatingCase, C1: np.ndarray, folder: Path, rows: Sequence[ManifestRow]
+    config: Config, case: CoatingCase, C1: np.ndarray, folder: Path, rows: Sequence[ManifestRow]
 ) -> CoatingMap:
     """Collect the runs in `folder` that these rows of its manifest list, at ascending speeds.
 
@@ -120,7 +121,7 @@ def collect_listed(
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"})
     runs[0].data.update(scales.data)
     longer = [_longer_run(folder, row) for row in rows]
-    prominence = config["analysis"]["lobe_prominence"]
+    prominence = config.analysis.lobe_prominence
     return collect(case, [row.f_omega for row in rows], C1, runs, longer, prominence)
 
 

@@ -1,8 +1,8 @@
 """Engine orders at which the peaks of a coating are sought: those that its casing excites."""
 
-from collections.abc import Mapping
-from typing import Any
-
+from bladerub.settings.analysis import Peaks
+from bladerub.settings.contact import AnyCasing
+from bladerub.settings.study import Config
 from bladerub.study.casings import nodal_diameters
 from bladerub.study.grid import coating_cases, speeds
 from bladerub.study.paper import ORDERS
@@ -10,15 +10,15 @@ from bladerub.study.paper import ORDERS
 _DERIVED = 2  # orders of a casing that does not excite those of the config, as many as the paper has
 
 
-def peak_orders(config: Mapping[str, Any], casing: str) -> list[int]:
+def peak_orders(config: Config, casing: str) -> list[int]:
     """Return the orders of the coatings of one casing: its ``peak_orders``, or ``analysis.peaks.orders``.
 
     If those are the paper's, and the casing does not excite them within the speeds of the study, they are its
     `excited_orders`.
     """
-    entry, orders = config["casings"][casing], config["analysis"]["peaks"]["orders"]
-    if "peak_orders" in entry:
-        return entry["peak_orders"]
+    entry, orders = config.casings[casing], config.analysis.peaks.orders
+    if entry.peak_orders:
+        return entry.peak_orders
     slowest, *_, fastest = speeds(config)
     suits = all(excites(entry, order) and order * slowest <= 1 <= order * fastest for order in orders)
     if suits or orders != list(ORDERS):
@@ -26,31 +26,31 @@ def peak_orders(config: Mapping[str, Any], casing: str) -> list[int]:
     return excited_orders(config, casing) or orders
 
 
-def peak_settings(config: Mapping[str, Any], casing: str) -> dict[str, Any]:
-    """Return ``config["analysis"]["peaks"]`` with the `peak_orders` of this casing."""
-    return {**config["analysis"]["peaks"], "orders": peak_orders(config, casing)}
+def peak_settings(config: Config, casing: str) -> Peaks:
+    """Return ``config.analysis.peaks`` with the `peak_orders` of this casing."""
+    return config.analysis.peaks.replaced("orders", peak_orders(config, casing))
 
 
-def excites(casing: Mapping[str, Any], order: int) -> bool:
+def excites(casing: AnyCasing, order: int) -> bool:
     """Whether a nodal diameter of `casing` (of the config) divides the order: its harmonics are excited."""
     return any(order % diameter == 0 for diameter in nodal_diameters(casing))
 
 
-def excited_orders(config: Mapping[str, Any], casing: str) -> list[int]:
+def excited_orders(config: Config, casing: str) -> list[int]:
     """Return the two lowest orders that the casing excites and whose peak the speeds of the study reach.
 
     The ``speed_window`` of such an order, with C1 at rest, ends below the highest speed, and its crossing
     with C1 at rest is not below the lowest. There may be fewer.
     """
     slowest, *_, fastest = speeds(config)
-    lowest_order = config["analysis"]["peaks"]["speed_window"][1] / fastest
-    orders = range(1, int(config["analysis"]["max_order"]) + 1)
+    lowest_order = config.analysis.peaks.speed_window[1] / fastest
+    orders = range(1, int(config.analysis.max_order) + 1)
     excited = [
-        k for k in orders if k >= lowest_order and k * slowest <= 1 and excites(config["casings"][casing], k)
+        k for k in orders if k >= lowest_order and k * slowest <= 1 and excites(config.casings[casing], k)
     ]
     return excited[:_DERIVED]
 
 
-def used_casings(config: Mapping[str, Any]) -> list[str]:
+def used_casings(config: Config) -> list[str]:
     """List the casings that have a coating."""
     return list(dict.fromkeys(case.casing for case in coating_cases(config)))

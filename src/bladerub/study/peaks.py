@@ -1,11 +1,11 @@
 """Resonant peaks: Y_k and f_k, where the engine order k crosses the first frequency C1 (Fig. 10)."""
 
-from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
+from bladerub.settings.analysis import Peaks
 from bladerub.study.grid import CoatingCase
 
 COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
@@ -42,12 +42,12 @@ def crossing_speed(coating: Response, order: float) -> float:
     return float(np.interp(0.0, distance, f_omega))  # distance increases with speed, since C1 grows slowly
 
 
-def speed_window(coating: Response, order: float, settings: Mapping[str, Any]) -> tuple[float, float]:
+def speed_window(coating: Response, order: float, settings: Peaks) -> tuple[float, float]:
     """Lowest and highest speed between which the peak of an engine order is sought, normalised.
 
     NaN as `crossing_speed`.
     """
-    low, high = settings["speed_window"]
+    low, high = settings.speed_window
     crossing = crossing_speed(coating, order)
     return low * crossing, high * crossing
 
@@ -66,7 +66,7 @@ def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.nda
 
 
 def amplitude_in_window(
-    coating: Response, order: float, settings: Mapping[str, Any], window: tuple[float, float] | None = None
+    coating: Response, order: float, settings: Peaks, window: tuple[float, float] | None = None
 ) -> np.ndarray:
     """Amplitude among which the peak of an engine order is sought, m (n,); NaN outside the speed `window`.
 
@@ -74,17 +74,17 @@ def amplitude_in_window(
     """
     low, high = window or speed_window(coating, order, settings)
     inside = (coating.f_omega >= low) & (coating.f_omega <= high)
-    return np.where(inside, order_amplitude(coating, order, settings["order_halfwidth"]), np.nan)
+    return np.where(inside, order_amplitude(coating, order, settings.order_halfwidth), np.nan)
 
 
-def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
+def peak(coating: Response, order: float, settings: Peaks) -> Peak:
     """Find the maximum (f_k, Y_k) of one engine order near its crossing with C1.
 
     Y_k is the largest amplitude within ``order_halfwidth`` of the order, over the speeds within
     ``speed_window`` times the crossing speed; f_k is the speed of the grid where it occurs. Runs that ended
     early count with what their spectrum holds; amplitudes are NaN at speeds without a run. A blade that stays
     at rest has the amplitude 0, at no speed. `settings` is
-    ``config["analysis"]["peaks"]``. The peak is NaN, with the reason, if the order does not cross C1 within
+    ``config.analysis.peaks``. The peak is NaN, with the reason, if the order does not cross C1 within
     the map, or no run with a spectrum lies in the window. Raises `ValueError` as `order_amplitude`.
     """
     candidate = maximum(coating, amplitude_in_window(coating, order, settings))
@@ -93,7 +93,7 @@ def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
     return Peak(np.nan, candidate.amplitude, _reason(coating, order, settings, candidate.amplitude))
 
 
-def _reason(coating: Response, order: float, settings: Mapping[str, Any], amplitude: float) -> str:
+def _reason(coating: Response, order: float, settings: Peaks, amplitude: float) -> str:
     """Say why an engine order has no peak; the `amplitude` is 0 or NaN."""
     if amplitude == 0:
         return f"no vibration on order {order:g} at any speed"
@@ -116,7 +116,7 @@ def maximum(coating: Response, amplitude: np.ndarray) -> Peak:
     return Peak(float(coating.f_omega[best]), float(amplitude[best]))
 
 
-def row(coating: Response, order: float, settings: Mapping[str, Any]) -> dict[str, Any]:
+def row(coating: Response, order: float, settings: Peaks) -> dict[str, Any]:
     """Return the row of one coating and order of the table; parameters and errors are those of `peak`."""
     f_peak, amplitude, reason = peak(coating, order, settings)
     return asdict(coating.case) | {"order": order, "f_peak": f_peak, "amplitude": amplitude, "reason": reason}

@@ -1,6 +1,5 @@
 """The runs that a study asks for: what each one is, in which file and under which key."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,6 +8,7 @@ from bladerub.contact.motion import motion_digest
 from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import digest_of
+from bladerub.settings.study import Config
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
 from bladerub.study.growth import confirmation_determinants, confirmation_spec
@@ -16,7 +16,7 @@ from bladerub.study.manifest import CONFIRMATION
 from bladerub.study.solver import row_of, rows, solver_of
 
 SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
-"""Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
+"""Keys of ``config.analysis`` that decide what a run file holds; the others act on maps and tables."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class CoatingPlan:
 
 
 def planned_run(
-    config: Mapping[str, Any],
+    config: Config,
     spec: RunSpec,
     file: str,
     keep_history: bool,
@@ -64,7 +64,7 @@ def planned_run(
         **motion_digest(spec),
         "storage": storage_digest(),
         "keep_history": bool(keep_history),
-        "analysis": {name: float(config["analysis"][name]) for name in SHAPING_SETTINGS},
+        "analysis": {name: float(getattr(config.analysis, name)) for name in SHAPING_SETTINGS},
     }
     if row:
         determinants |= rows().determinants(row)
@@ -78,7 +78,7 @@ def storage_digest() -> str:
     return digest_of("study/store.py", "study/spectra.py")
 
 
-def coating_plan(config: Mapping[str, Any], case: CoatingCase) -> CoatingPlan:
+def coating_plan(config: Config, case: CoatingCase) -> CoatingPlan:
     """Plan the runs of one coating at all speeds of the study `config`."""
     spec, row, runs = run_spec(config, case, f_omega=0.0), row_of(config), []
     for f_omega in speeds(config):
@@ -88,14 +88,14 @@ def coating_plan(config: Mapping[str, Any], case: CoatingCase) -> CoatingPlan:
     return CoatingPlan(case, tuple(runs))
 
 
-def growth_key(config: Mapping[str, Any]) -> str:
+def growth_key(config: Config) -> str:
     """Digest what decides which runs need a longer one, besides the runs themselves."""
-    return cache.digest(confirmation_determinants(config["analysis"]["divergence"]))
+    return cache.digest(confirmation_determinants(config.analysis.divergence))
 
 
-def longer_run(config: Mapping[str, Any], run: PlannedRun) -> PlannedRun:
+def longer_run(config: Config, run: PlannedRun) -> PlannedRun:
     """Plan the longer run that shows whether the growth of `run` lasts."""
-    spec = confirmation_spec(run.spec, config["analysis"]["divergence"])
+    spec = confirmation_spec(run.spec, config.analysis.divergence)
     return planned_run(config, spec, longer_file(run), keep_history=False, row=run.row)
 
 

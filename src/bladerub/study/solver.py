@@ -6,7 +6,7 @@ of the single blade, have another (``ROWS``).
 """
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from functools import partial
 from typing import Any, NamedTuple, TypeVar
@@ -19,6 +19,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.io.errors import BadInput
+from bladerub.settings.study import Config
 
 ROW = "rotor"
 """Block of the config that describes a row of blades."""
@@ -83,9 +84,9 @@ class Solver:
         """Begin, in the main process of a workflow, what its jobs on this machine share, if anything."""
 
 
-def solver_of(config: Mapping[str, Any]) -> Solver:
+def solver_of(config: Config) -> Solver:
     """Return what computes the runs of the study `config`; raises `BadInput` where that is not there."""
-    name, offered = config["solver"]["device"], plugins.offered("SOLVERS")
+    name, offered = config.solver.device, plugins.offered("SOLVERS")
     if name == "cpu":
         return Solver()
     if name not in offered:
@@ -136,9 +137,9 @@ def rows() -> Any:
     return plugins.load(offered[ROW])
 
 
-def row_of(config: Mapping[str, Any]) -> Any:
+def row_of(config: Config) -> Any:
     """Describe the row of blades that the runs of the study are of; None for single blades.
 
     Raises `ValueError` if a list has neither one value nor one for each blade, and as `rows`.
     """
-    return rows().described(config) if ROW in config else None
+    return rows().described(config) if config.plugged(ROW) else None

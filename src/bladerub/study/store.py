@@ -15,6 +15,7 @@ from bladerub.contact.spec import PLASTIC, RunSpec
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
+from bladerub.settings.analysis import Analysis
 from bladerub.study.grid import CoatingCase
 from bladerub.study.spectra import order_spectrum
 
@@ -79,7 +80,7 @@ def stored_run(
     spec: RunSpec,
     result: RunResult,
     run_key: str,
-    analysis: Mapping[str, Any],
+    analysis: Analysis,
     keep_history: bool,
 ) -> StoredRun:
     """Take from the outcome of a run what is stored of it, `keep_history` the displacement at all times.
@@ -87,7 +88,7 @@ def stored_run(
     `run_key` is of `bladerub.study.plan.PlannedRun.key`, `analysis` of the config, for the spectrum.
     """
     order, amplitude = order_spectrum(
-        result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], analysis["max_order"]
+        result.radial_displacement, spec.revolutions, analysis.spectrum_revolutions, analysis.max_order
     )
     data = {
         "angle": result.angle,

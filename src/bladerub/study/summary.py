@@ -1,10 +1,10 @@
 """The summary of one run in a few numbers."""
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
+from bladerub.settings.analysis import Analysis
 from bladerub.study.growth import judge
 from bladerub.study.store import StoredRun
 from bladerub.study.wear import dominant_harmonic, lobes
@@ -38,8 +38,8 @@ def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
     return float(np.fmax.reduce(record[-revolutions:], initial=np.nan))
 
 
-def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | None = None) -> dict[str, Any]:
-    """Summarise one run by the settings ``config["analysis"]`` of the study, in plain Python values.
+def summarise(run: StoredRun, analysis: Analysis, longer: StoredRun | None = None) -> dict[str, Any]:
+    """Summarise one run by the settings ``config.analysis`` of the study, in plain Python values.
 
     Returns
     -------
@@ -58,16 +58,16 @@ def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | N
     data = run.data
     engine_order, height = spectral_peak(data["spectrum_order"], data["spectrum_amplitude"])
     longest = longer.data["revolution_amplitude"] if longer else None
-    verdict = judge(data["revolution_amplitude"], run.attributes["status"], analysis["divergence"], longest)
+    verdict = judge(data["revolution_amplitude"], run.attributes["status"], analysis.divergence, longest)
     harmonic, share = dominant_harmonic(data["wear"])
-    peak = displacement_peak(data["revolution_peak"], analysis["spectrum_revolutions"])
+    peak = displacement_peak(data["revolution_peak"], analysis.spectrum_revolutions)
     growth = {f"growth_{name}": getattr(verdict.growth, name) for name in ("per_revolution", "low", "high")}
     return {
         "peak_amplitude": peak if np.isfinite(peak) else None,
         "engine_order": engine_order if height > 0 else None,
         "max_wear": float(data["wear"].max()),
         **{f"max_{name}": float(values.max()) for name, values in run.layer.items()},
-        "lobes": lobes(data["angle"], data["wear"], analysis["lobe_prominence"]),
+        "lobes": lobes(data["angle"], data["wear"], analysis.lobe_prominence),
         "wear_harmonic": harmonic,
         "wear_harmonic_share": share,
         **{name: value if np.isfinite(value) else None for name, value in growth.items()},  # JSON has no NaN

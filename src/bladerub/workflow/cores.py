@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from bladerub import plugins
+from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, speeds
 
 FEWEST = 8
@@ -59,7 +60,7 @@ def run_cost(E: float, f_omega: np.ndarray) -> np.ndarray:
     return np.maximum(1.0, E / STIFF / f_omega)
 
 
-def costs_of(config: Mapping[str, Any]) -> Costs:
+def costs_of(config: Config) -> Costs:
     """Estimate what the jobs of a study cost."""
     f_omega = np.array(speeds(config))
     weights = {

@@ -6,9 +6,10 @@ from typing import Any
 from bladerub.config.read import is_whole, read_with_notes
 from bladerub.config.record import Record
 from bladerub.io.folders import CONFIG, ROOT
+from bladerub.settings.study import Config
 
 
-def read(workflow: Any, config: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], Record]:
+def read(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[str], Record]:
     """Read the config of the study with the lines of its files, which Snakemake does not keep.
 
     `workflow` is that of the Snakefile, `config` as Snakemake has it before any ``configfile``: what the

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from bladerub.blade.built import read
 from bladerub.extras.blade_comparison import blades, runs
+from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
@@ -18,7 +19,7 @@ outputs.save(
     snakemake,
     blades=blades({"this": built, "reference": reference}),
     runs=runs(
-        snakemake.config,
+        typed(snakemake.config),
         zip(maps[:half], maps[half:], strict=True),
         (built.reduced.length, reference.reduced.length),
     ),

@@ -9,12 +9,13 @@ from pathlib import Path
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.chart.column import compute_missing
 from bladerub.extras.chart.point import POINTS, PointRow
+from bladerub.settings.study import typed
 from bladerub.study.cache import blade_digest
 from bladerub.study.manifest import write_manifest
 
 path = Path(snakemake.output[0])
 rows = compute_missing(
-    snakemake.config,
+    typed(snakemake.config),
     snakemake.params.plan,
     read_reduced_blade(snakemake.input.blade),
     path.parents[1] / POINTS,

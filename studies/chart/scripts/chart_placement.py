@@ -5,8 +5,9 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.chart.check import summary, table
+from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
-compared = table(snakemake.config, map(read_map, snakemake.input.maps))
+compared = table(typed(snakemake.config), map(read_map, snakemake.input.maps))
 outputs.save(snakemake, table=compared, summary=summary(compared))

@@ -6,13 +6,14 @@ job.log_to(snakemake.log[0])
 
 from bladerub.extras.ensembles import bands, ensemble
 from bladerub.io import tables
+from bladerub.settings.study import typed
 from bladerub.study import findings
 from bladerub.study.findings.evidence import read_rom_accuracy
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
 table = bands.of_findings(
-    snakemake.config,
+    typed(snakemake.config),
     tables.read(snakemake.input.findings, findings.COLUMNS),
     read_rom_accuracy(snakemake.input.rom_accuracy),
     [read_map(path) for path in snakemake.input.maps],

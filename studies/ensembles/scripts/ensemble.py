@@ -8,6 +8,7 @@ from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.ensembles import ensemble
+from bladerub.settings.study import typed
 from bladerub.study.cache import blade_digest
 from bladerub.study.maps import read_map
 from bladerub.workflow.progress import of_job
@@ -15,7 +16,7 @@ from bladerub.workflow.progress import of_job
 folder, coating = Path(snakemake.params.folder), read_map(snakemake.input.map)
 progress = of_job(f"{coating.case.name}, ensemble", folder)
 rows = ensemble.make(
-    snakemake.config,
+    typed(snakemake.config),
     coating,
     read_reduced_blade(snakemake.input.blade),
     blade_digest(snakemake.input.blade),

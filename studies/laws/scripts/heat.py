@@ -6,6 +6,7 @@ job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.heat import table
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
-outputs.save(snakemake, table=table(snakemake.config, read_reduced_blade(snakemake.input.blade)))
+outputs.save(snakemake, table=table(typed(snakemake.config), read_reduced_blade(snakemake.input.blade)))

@@ -6,10 +6,11 @@ job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.passages import long_runs
+from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
 
 long_runs.make(
-    snakemake.config,
+    typed(snakemake.config),
     read_map(snakemake.input.map),
     read_reduced_blade(snakemake.input.blade),
     snakemake.output[0],

@@ -6,8 +6,9 @@ job.log_to(snakemake.log[0])
 
 from bladerub.extras.passages import long_runs
 from bladerub.extras.plots.long_runs import long_runs as draw
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
 coatings = [long_runs.read(path) for path in snakemake.input.long]
-table = long_runs.table(snakemake.config, coatings)
+table = long_runs.table(typed(snakemake.config), coatings)
 outputs.save(snakemake, draw(coatings, table), table=table)

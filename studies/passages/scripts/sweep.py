@@ -6,12 +6,13 @@ job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.passages import sweeps
+from bladerub.settings.study import typed
 from bladerub.study.grid import case_from_name
 
-wildcards = snakemake.wildcards
+config, wildcards = typed(snakemake.config), snakemake.wildcards
 result = sweeps.make(
-    snakemake.config,
-    case_from_name(snakemake.config, wildcards.coating),
+    config,
+    case_from_name(config, wildcards.coating),
     read_reduced_blade(snakemake.input.blade),
     wildcards.direction,
     float(wildcards.rate),

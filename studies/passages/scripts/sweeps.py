@@ -6,10 +6,11 @@ job.log_to(snakemake.log[0])
 
 from bladerub.extras.passages import sweeps
 from bladerub.extras.plots.sweeps import sweeps as draw
+from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
 swept = [sweeps.read(path) for path in snakemake.input.sweeps]
 maps = {coating.case: coating for coating in map(read_map, snakemake.input.maps)}
-table = sweeps.table(snakemake.config, swept, maps)
+table = sweeps.table(typed(snakemake.config), swept, maps)
 outputs.save(snakemake, draw(swept, maps), table=table)

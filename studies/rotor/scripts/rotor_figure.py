@@ -9,8 +9,9 @@ from pathlib import Path
 from bladerub.extras.plots import rotor
 from bladerub.extras.rotor.plan import read_plan
 from bladerub.io import tables
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
 draw = {"rotor": rotor.rotor, "rotor_sweeps": rotor.rotor_sweeps}[Path(snakemake.output.png).stem]
-plan = read_plan(snakemake.input.plan, snakemake.config)
+plan = read_plan(snakemake.input.plan, typed(snakemake.config))
 outputs.save(snakemake, draw(plan, tables.read(snakemake.input.table)))

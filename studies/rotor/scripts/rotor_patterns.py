@@ -7,8 +7,10 @@ job.log_to(snakemake.log[0])
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.rotor import pattern
 from bladerub.extras.rotor.plan import read_plan
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
-plan = read_plan(snakemake.input.plan, snakemake.config)
-followed = pattern.table(snakemake.config, read_reduced_blade(snakemake.input.blade), plan)
+config = typed(snakemake.config)
+plan = read_plan(snakemake.input.plan, config)
+followed = pattern.table(config, read_reduced_blade(snakemake.input.blade), plan)
 outputs.save(snakemake, table=followed, drift=pattern.drifts(followed))

@@ -18,12 +18,13 @@ from bladerub.plots import style
 from bladerub.plots.scales import Engine, Scales
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.wear_map import wear_map
+from bladerub.settings.study import typed
 from bladerub.study.grid import coating_cases, modulus_unit
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
-config, dpi = snakemake.params.plan[reference.REFERENCE], snakemake.params.dpi
-origin, folder = provenance(config), snakemake.params.folder
+plain, dpi = snakemake.params.plan[reference.REFERENCE], snakemake.params.dpi
+config, origin, folder = typed(plain), provenance(plain), snakemake.params.folder
 sets = (reference.REFERENCE, *reference.VARIATIONS)
 cases = coating_cases(config)
 parts = {
@@ -55,11 +56,11 @@ coated = {
 panels = {"rigid casing": rigid} | {
     f"coated casing, θ = {angle:g}": response for angle, response in coated.items()
 }
-look = config["figures"]
-engine = Engine(blade.f1_hz, look["nominal_speed"])
-scales = Scales(modulus_unit(config), config["blade"]["length"], engine)
+look = config.figures
+engine = Engine(blade.f1_hz, look.nominal_speed)
+scales = Scales(modulus_unit(config), config.blade.length, engine)
 spectrum = partial(
-    spectrum_map, amplitude_range=look["amplitude_range"], f_max=look["max_frequency"], scales=scales
+    spectrum_map, amplitude_range=look.amplitude_range, f_max=look.max_frequency, scales=scales
 )
 straight, inclined = (response["E = 1 GPa"] for response in coated.values())
 figures = {

@@ -8,11 +8,12 @@ from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.rotor37.numbers import of_coating
 from bladerub.extras.small_study import map_coating
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import typed
 from bladerub.study.cache import blade_digest
 from bladerub.study.grid import case_from_name
 from bladerub.workflow import outputs
 
-config, model = snakemake.params.config, snakemake.input.blade
+config, model = typed(snakemake.params.config), snakemake.input.blade
 case, blade = case_from_name(config, snakemake.wildcards.coating), read_reduced_blade(model)
 coating, _ = map_coating(
     config,
@@ -23,4 +24,4 @@ coating, _ = map_coating(
     report=job.log,
 )
 numbers = of_coating(config, coating, blade)
-outputs.save(snakemake, origin=provenance(config), numbers=numbers)
+outputs.save(snakemake, origin=provenance(snakemake.params.config), numbers=numbers)

@@ -8,9 +8,10 @@ from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.rotor37 import direct
 from bladerub.extras.rotor37.numbers import of_blade
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
-config, blade = snakemake.params.config, read_reduced_blade(snakemake.input.blade)
+config, blade = typed(snakemake.params.config), read_reduced_blade(snakemake.input.blade)
 results, origin = direct.runs(config, blade), provenance(snakemake.params.config)
 of_runs = {"direct": direct.numbers(results), "history": direct.last_revolution(results)}
 outputs.save(snakemake, origin=origin, blade=of_blade(config, blade), **of_runs)

@@ -9,11 +9,12 @@ from pathlib import Path
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.rotor37.nlstep import table
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
 config, wildcards = snakemake.params.config, snakemake.wildcards
 numbers = table(
-    config,
+    typed(config),
     read_reduced_blade(snakemake.input.blade),
     Path(snakemake.input.program),
     float(wildcards.friction),

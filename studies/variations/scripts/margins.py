@@ -7,7 +7,9 @@ job.log_to(snakemake.log[0])
 from bladerub.extras.variations import margins
 from bladerub.extras.variations.calibration import verdicts
 from bladerub.extras.variations.verdicts import verdicts as draw
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
-table = margins.table(snakemake.config, snakemake.input.maps, snakemake.input.rom_accuracy)
+config, inputs = typed(snakemake.config), snakemake.input
+table = margins.table(config, inputs.maps, inputs.rom_accuracy)
 outputs.save(snakemake, draw(verdicts(table, by="variation")), table=table)

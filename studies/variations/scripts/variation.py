@@ -9,6 +9,7 @@ from bladerub.extras.variations import candidates, waves
 from bladerub.extras.variations.job import cases, judge
 from bladerub.extras.variations.plan import read
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
 kind, name, path = snakemake.wildcards.kind, snakemake.wildcards.job, snakemake.params.plan
@@ -21,7 +22,7 @@ elif snakemake.input.sets:
 else:
     positions = waves.known(plan)
 results = judge(
-    cases(snakemake.config, plan, plan.jobs()[name], positions),
+    cases(typed(snakemake.config), plan, plan.jobs()[name], positions),
     snakemake.params.blades,
     snakemake.params.folder,
     report=job.log,

@@ -28,7 +28,7 @@ def test_a_wrong_value_is_named_with_file_line_and_key_and_a_replaced_one_leaves
         br.load_study(path)
     assert str(caught.value).startswith(f"{path}:3: blade.length = -1")
     damped = study.replace("contact.damping_ratio", 1e-3)
-    assert damped.config["contact"]["damping_ratio"] == 1e-3
+    assert damped.config.contact.damping_ratio == 1e-3
     assert damped == study.replace({"contact": {"damping_ratio": 1e-3}}) != study
     with pytest.raises(br.ConfigError, match=r"contact\.damping_ratio = 2"):
         study.replace("contact.damping_ratio", 2)
@@ -36,10 +36,10 @@ def test_a_wrong_value_is_named_with_file_line_and_key_and_a_replaced_one_leaves
 
 def test_a_config_is_found_in_the_working_directory_or_the_package(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert br.load_study("config/quick.yaml").config["blade"]["mesh"]["thickness"] == 1
+    assert br.load_study("config/quick.yaml").config.blade.mesh.thickness == 1
     (tmp_path / "config").mkdir()
     (tmp_path / "config" / "quick.yaml").write_text("solver: {revolutions: 30}\n")
-    assert br.load_study("config/quick.yaml").config["solver"]["revolutions"] == 30
+    assert br.load_study("config/quick.yaml").config.solver.revolutions == 30
 
 
 def test_a_run_in_units_is_that_in_plain_numbers(study):
@@ -64,9 +64,9 @@ def test_blade_is_built_once_and_goes_to_xarray_and_pandas(study, blade, small, 
 
 def test_a_doubtful_blade_gets_a_warning(study, blade, small, monkeypatch):
     monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
-    figures = {**study.config["figures"], "nominal_speed": 6e4}
+    fast = study.config.replaced("figures.nominal_speed", 6e4)
     with pytest.warns(UserWarning, match="beyond reduction.f_omega_max = 0.4"):
-        br.build_blade(br.Study({**study.config, "figures": figures}, study.folder))
+        br.build_blade(br.Study(fast, study.folder))
 
 
 def test_speeds_ascend_and_are_the_single_runs_whatever_the_jobs(study, blade, sweep):

@@ -30,7 +30,7 @@ def ensemble(blade, planned, followed):
 
 
 def test_a_run_is_written_whole(study, run, followed, blade, tmp_path):
-    settings = study.config["analysis"]["divergence"]
+    settings = study.config.analysis.divergence
     assert followed.longer
     assert followed.stress
     unbounded = br.simulate(blade, study.rigid("2nd", friction=1.0).at(0.19, revolutions=3))

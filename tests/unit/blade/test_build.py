@@ -10,18 +10,16 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.reduction import directions
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import hdf5
-
-CONFIG = REDUCTION | {"accuracy_modes": 4}
+from bladerub.settings.blade import BladeSpec
 
 
 @pytest.fixture
 def built(twisted_config):
-    return build({"blade": twisted_config, "reduction": CONFIG})
+    return build(BladeSpec(blade=twisted_config, reduction=REDUCTION.replaced("accuracy_modes", 4)))
 
 
 def test_radial_direction_is_the_normal_of_a_conical_flow_path(twisted_config):
-    twisted_config["tip_cone"] = 12.0
-    shape = BladeShape.from_config(twisted_config)
+    shape = BladeShape.from_config(twisted_config.replaced("tip_cone", 12.0))
     tip = shape.points(np.linspace(0, 1, 9), 0.5, 1.0).T
     radius = np.hypot(tip[:, 1], tip[:, 2])
     np.testing.assert_allclose(radius, 0.65 + tip[:, 0] * np.tan(np.deg2rad(12.0)))

@@ -20,20 +20,20 @@ def test_sections_are_on_a_cubic_spline_to_the_last_bit(n):
 
 
 def test_lean_and_stagger_are_with_the_rotation_and_sweep_goes_downstream(blade_config):
-    blade_config["sections"][1] = section(1.0, lean=0.03, sweep=0.01)
-    x, y, z = camber_line(blade_config, 0.5)
+    moved = [section(0.0), section(1.0, lean=0.03, sweep=0.01)]
+    x, y, z = camber_line(blade_config.replaced("sections", moved), 0.5)
     assert np.arctan2(y, z) == pytest.approx(0.03 / 0.65, rel=1e-12)
     assert x == pytest.approx(0.01, rel=1e-12)
-    blade_config["sections"][1] = section(1.0, stagger=30.0)  # puts the leading edge upstream and ahead
-    (x_lead, x_trail), (y_lead, y_trail), _ = camber_line(blade_config, [0.0, 1.0])
+    turned = [section(0.0), section(1.0, stagger=30.0)]  # puts the leading edge upstream and ahead
+    blade = blade_config.replaced("sections", turned)
+    (x_lead, x_trail), (y_lead, y_trail), _ = camber_line(blade, [0.0, 1.0])
     assert x_trail - x_lead == pytest.approx(0.08 * np.cos(np.pi / 6), rel=1e-12)
     assert y_lead > 0 > y_trail
 
 
 def test_camber_turns_by_its_angle_with_the_hollow_side_ahead(blade_config):
-    blade_config["sections"] = [section(span, camber=20.0) for span in (0.0, 1.0)]
-    step = 1e-6
-    x, y, z = camber_line(blade_config, [0.0, step, 1 - step, 1.0])
+    blade, step = blade_config.replaced("sections", [section(s, camber=20.0) for s in (0.0, 1.0)]), 1e-6
+    x, y, z = camber_line(blade, [0.0, step, 1 - step, 1.0])
     t = 0.65 * np.arctan2(y, z)
     slope = np.diff(t) / np.diff(x)
     assert np.rad2deg(np.arctan(slope[-1]) - np.arctan(slope[0])) == pytest.approx(20.0, abs=1e-3)
@@ -41,37 +41,37 @@ def test_camber_turns_by_its_angle_with_the_hollow_side_ahead(blade_config):
 
 
 def test_sections_are_stacked_by_the_centroid_of_the_camber_line(twisted_config):
-    twisted_config["sections"][1].update(sweep=0.0, lean=0.0)
+    hub, tip = twisted_config.sections
     xi = (np.arange(2000) + 0.5) / 2000
-    x, y, z = camber_line(twisted_config, xi)
+    stacked = [hub, tip.replaced("sweep", 0.0).replaced("lean", 0.0)]
+    x, y, z = camber_line(twisted_config.replaced("sections", stacked), xi)
     assert x.mean() == pytest.approx(0.0, abs=1e-8)
     assert np.arctan2(y, z).mean() == pytest.approx(0.0, abs=1e-8)
 
 
 @pytest.mark.parametrize(("chordwise", "thickness", "n_nodes"), [(6, 1, 7), (3, 4, 7)])
 def test_check_counts_the_nodes_of_the_interface(blade_config, chordwise, thickness, n_nodes):
-    blade_config["mesh"].update(chordwise=chordwise, thickness=thickness)
+    blade = blade_config.replaced("mesh.thickness", thickness)
     with pytest.raises(ValueError, match=rf"^blade\.mesh\.chordwise = {chordwise}: gives {n_nodes} nodes"):
-        check(blade_config)
-    blade_config["mesh"].update(chordwise=4 if thickness % 2 == 0 else 7)
-    check(blade_config)
+        check(blade.replaced("mesh.chordwise", chordwise))
+    check(blade.replaced("mesh.chordwise", 4 if thickness % 2 == 0 else 7))
 
 
 @pytest.mark.parametrize("cone", [0.0, 12.0])
 def test_the_flow_path_widens_gradually_from_a_cylindrical_hub_to_the_tip(twisted_config, cone):
-    twisted_config["tip_cone"] = cone
+    shape = BladeShape.from_config(twisted_config.replaced("tip_cone", cone))
     xi, eta, zeta = np.meshgrid(*[np.linspace(0, 1, 5)] * 3)
-    x, y, z = BladeShape.from_config(twisted_config).points(xi, eta, zeta)
+    x, y, z = shape.points(xi, eta, zeta)
     expected = 0.45 + zeta * (0.2 + x * np.tan(np.deg2rad(cone)))
     np.testing.assert_allclose(np.hypot(y, z), expected, rtol=1e-14)
 
 
 def test_check_finds_elements_inside_out_at_some_corners(blade_config):
     """A section so thick that its hollow side folds, while the other elements stay in order."""
-    blade_config["sections"] = [section(span, thickness=1.0, camber=100.0) for span in (0.0, 1.0)]
-    blade_config["mesh"].update(spanwise=1)
+    thick = [section(span, thickness=1.0, camber=100.0) for span in (0.0, 1.0)]
+    blade = blade_config.replaced("sections", thick).replaced("mesh.spanwise", 1)
     corners = np.meshgrid(np.linspace(0, 1, 8), [0.0, 1.0], [0.0, 1.0], indexing="ij")
-    jacobian = corner_jacobians(BladeShape.from_config(blade_config).points(*corners))
+    jacobian = corner_jacobians(BladeShape.from_config(blade).points(*corners))
     assert jacobian.min() < 0 < jacobian.max()
     with pytest.raises(ValueError, match=r"^blade\.sections: mesh turned inside out at span"):
-        check(blade_config)
+        check(blade)

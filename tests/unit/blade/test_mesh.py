@@ -5,6 +5,7 @@ from blade_parts import tetrahedral_mesh
 from bladerub.blade.geometry import EDGE_THICKNESS, BladeShape
 from bladerub.blade.mesh import BladeMesh, hexahedral_mesh, solid_mesh
 from bladerub.blade.surface import EDGES
+from bladerub.settings.blade import Mesh
 
 
 def test_every_node_lies_on_the_blade(twisted_config):
@@ -45,7 +46,7 @@ def test_elements_survive_a_new_numbering(make_mesh):
 @pytest.mark.parametrize(("chordwise", "thickness"), [(7, 1), (8, 2)])  # 15 and 17 nodes for 8
 def test_interface_takes_the_nodes_of_the_tip_nearest_to_even_places(twisted_config, chordwise, thickness):
     shape = BladeShape.from_config(twisted_config)
-    counts = {"chordwise": chordwise, "thickness": thickness, "spanwise": 1}
+    counts = Mesh.model_construct(chordwise=chordwise, thickness=thickness, spanwise=1)
     blade = BladeMesh.from_shape(shape, counts)
     on_line = np.linspace(0, 1, 2 * chordwise + 1)[:: 3 - thickness]
     nearest = [np.argmin(np.abs(on_line - place)) for place in np.linspace(0, 1, 8)]
@@ -65,7 +66,7 @@ def test_volume_is_that_of_the_sections(twisted_config):
         slope = np.tan(camber / 2) * (1 - 2 * xi)
         profile = 1 - (1 - EDGE_THICKNESS) * (2 * xi - 1) ** 2
         volume += share * 0.2 * chord**2 * thickness * np.sum(weight * profile * np.hypot(1, slope))
-    mesh = BladeMesh.from_shape(shape, {"chordwise": 8, "thickness": 1, "spanwise": 6}).mesh
+    mesh = BladeMesh.from_shape(shape, Mesh(chordwise=8, thickness=1, spanwise=6)).mesh
     points, weights = np.polynomial.legendre.leggauss(3)
     cube = np.stack([axis.ravel() for axis in np.meshgrid(*[(points + 1) / 2] * 3, indexing="ij")])
     determinant = mesh.mapping().detDF(cube)

@@ -17,17 +17,17 @@ import pytest
 
 from bladerub.blade.build import meshed_blade
 from bladerub.blade.discrete import by_finite_elements
-from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
-from bladerub.config.read import load
+from bladerub.config.read import read
 from bladerub.contact import law
 from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.export.sections import write_sections
+from bladerub.settings.blade import Mesh
 
 CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
-COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 3}
+COUNTS = Mesh(chordwise=7, thickness=1, spanwise=3)
 N_DRAWN = int(os.environ.get("BLADERUB_BROKEN_FILES", "12"))
 LONGEST = 240  # s
 MEMORY = (12 * 2**30,) * 2
@@ -48,7 +48,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory):
     folder = tmp_path_factory.mktemp("sound")
-    blade = load(CONFIG)["blade"] | {"mesh": COUNTS}
+    blade = read(CONFIG).blade.replaced("mesh", COUNTS)
     shape = BladeShape.from_config(blade)
     mesh = BladeMesh.from_shape(shape, COUNTS)
     for name in BLADES[:3]:
@@ -56,9 +56,7 @@ def sound(tmp_path_factory):
             folder / name, mesh.mesh.points, mesh.mesh.cells, {"ROOT": mesh.root, "TIP": mesh.tip}
         )
     write_sections(folder / "blade.csv", shape, "cartesian")
-    discrete = by_finite_elements(
-        meshed_blade(blade), Material.from_config(blade["material"]), [0, 0.2, 0.4], [], 8
-    )
+    discrete = by_finite_elements(meshed_blade(blade), blade.material, [0, 0.2, 0.4], [], 8)
     for name, suffix in zip(BLADES[4:], (".mtx", ".npz"), strict=True):
         (folder / name).mkdir()
         write_fe_matrices(folder / name, discrete, 0.4, suffix)

@@ -56,10 +56,10 @@ def test_the_lines_are_accepted_by_the_config(tmp_path, capsys):
     file = tmp_path / "fitted.yaml"
     file.write_text(lines, encoding="utf-8")
     study = read.read(base_config(), file)
-    contact, coating = study["contact"], study["coatings"][0]
-    assert coating["E"][0] * contact["modulus_unit"] == pytest.approx(900e6, rel=0.02)
-    assert coating["K"][0] * contact["modulus_unit"] == pytest.approx(60e6, rel=0.05)
-    assert contact["yield_stress"] * contact["modulus_unit"] == pytest.approx(9e6, rel=0.02)
-    assert contact["modulus_unit"] == 600e6
+    contact, coating = study.contact, study.coatings[0]
+    assert coating.E[0] * contact.modulus_unit == pytest.approx(900e6, rel=0.02)
+    assert coating.K[0] * contact.modulus_unit == pytest.approx(60e6, rel=0.05)
+    assert contact.yield_stress * contact.modulus_unit == pytest.approx(9e6, rel=0.02)
+    assert contact.modulus_unit == 600e6
     assert main(["fit-coating", table(0.008)]) == 0
     assert "not determined by these curves: K, yield_stress" in capsys.readouterr().out

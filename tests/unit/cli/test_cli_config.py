@@ -55,14 +55,14 @@ def test_results_from_elsewhere_execute_no_law(study, capsys, command):
 def test_a_law_is_taken_from_the_results_if_trusted_of_the_package_or_of_the_study(study):
     options = Namespace(name="run", config=[], trust=True)
     _record(study, file="evil.py")
-    assert inputs.read_config(options)["contact"]["law"] == {"file": "evil.py"}
+    assert inputs.read_config(options).contact.law.plain() == {"file": "evil.py"}
     options.trust = False
     _record(study, name="viscoplastic", viscosity=1e4)
-    assert inputs.read_config(options)["contact"]["law"]["name"] == "viscoplastic"
+    assert inputs.read_config(options).contact.law.name == "viscoplastic"
     config = study / "config" / "config.yaml"
     config.write_text(config.read_text().replace("contact:\n", "contact:\n  law: {file: evil.py}\n"))
     _record(study, file="evil.py")
-    assert inputs.read_config(options)["contact"]["law"] == {"file": "evil.py"}
+    assert inputs.read_config(options).contact.law.plain() == {"file": "evil.py"}
 
 
 def test_a_new_study_has_the_config_of_the_paper(tmp_path, monkeypatch, capsys):

@@ -19,6 +19,8 @@ from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.export.sections import write_sections
 from bladerub.io.folders import ROOT
 from bladerub.io.provenance import provenance
+from bladerub.settings.blade import Mesh
+from bladerub.settings.study import typed
 
 CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
 
@@ -27,10 +29,8 @@ CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
 def folder(tmp_path_factory):
     """The default blade on a coarse mesh, in mm, and a config that asks for few speeds."""
     folder = tmp_path_factory.mktemp("blade")
-    blade = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"]
-    mesh = BladeMesh.from_shape(
-        BladeShape.from_config(blade), {"chordwise": 7, "thickness": 1, "spanwise": 6}
-    )
+    counts = Mesh(chordwise=7, thickness=1, spanwise=6)
+    mesh = BladeMesh.from_shape(BladeShape.from_config(configuration.read(CONFIG).blade), counts)
     sets = {"FOOT": mesh.root, "TOP": mesh.tip}
     write_mesh_file(folder / "blade.inp", 1e3 * mesh.mesh.points, mesh.mesh.cells, sets)
     (folder / "small.yaml").write_text("reduction: {accuracy_speeds: 3}\n")
@@ -101,7 +101,7 @@ def test_a_sense_of_rotation_that_no_compressor_has_is_told(look):
 
 
 def test_sections_are_meshed_as_the_config_says_and_reported(look, folder):
-    shape = BladeShape.from_config(yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"])
+    shape = BladeShape.from_config(configuration.read(CONFIG).blade)
     write_sections(folder / "blade.csv", shape, "cylindrical")
     (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
     coarse = ("--config", str(folder / "coarse.yaml"))
@@ -133,15 +133,16 @@ def test_the_study_takes_the_blade_that_was_imported(look, folder, tmp_path, mon
     assert "nominal speed       9000 1/min, f_omega = 0.76" in out
     (tmp_path / "printed.yaml").write_text(out.split("are absolute\n")[1])
     config = configuration.read(CONFIG, tmp_path / "printed.yaml")
-    assert config["figures"]["nominal_speed"] == 9000
-    source = dict(config["blade"]["source"])
-    del config["blade"]["source"]["radial"]  # its default, as in a config by hand
-    meshed = build.meshed_blade(config["blade"])
+    assert config.figures.nominal_speed == 9000
+    values = config.plain()
+    del values["blade"]["source"]["radial"]  # its default, as in a config by hand
+    config = typed(values)
+    meshed = build.meshed_blade(config.blade)
     built_now, folders = build.reduce_meshed(meshed, config), [tmp_path / name for name in ("now", "kept")]
     monkeypatch.setattr(build, "meshed_blade", lambda *_: pytest.fail("built again"))
     for blade, into in zip((built_now, build.build(config)), folders, strict=True):
         into.mkdir()
-        built.write(blade, provenance(config), *paths(into / "reduced_model.h5"))
+        built.write(blade, provenance(values), *paths(into / "reduced_model.h5"))
     files = sorted(path.name for path in folders[0].iterdir())
     assert len(files) == 4
     assert all((folders[0] / name).read_bytes() == (folders[1] / name).read_bytes() for name in files)
@@ -149,8 +150,7 @@ def test_the_study_takes_the_blade_that_was_imported(look, folder, tmp_path, mon
     monkeypatch.setattr(build, "meshed_blade", lambda *_: None)
     monkeypatch.setattr(build, "reduce_meshed", lambda *_: "built again")
     assert build.build(config) == "built again"
-    config["blade"]["source"] = source | {"unit": "m"}
-    assert build.build(config) == "built again"
+    assert build.build(config.replaced("blade.source.unit", "m")) == "built again"
 
 
 def test_the_layout_of_rotor_67_is_converted_as_its_page_says(tmp_path, monkeypatch):

@@ -1,8 +1,14 @@
 import pytest
-from study_fixtures import config  # noqa: F401 (fixture)
+from study_fixtures import CONFIG
 
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import validate
+
+
+@pytest.fixture
+def config():
+    """The values of the paper's study."""
+    return CONFIG.plain()
 
 
 @pytest.fixture

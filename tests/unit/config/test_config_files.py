@@ -4,9 +4,10 @@ import pytest
 import yaml
 
 from bladerub.config import files
-from bladerub.config.errors import ConfigError, format_value, key_path
+from bladerub.config.errors import ConfigError, key_path
 from bladerub.config.files import LARGEST_FILE, LONGEST_VALUE, MOST_VALUES, compose
 from bladerub.config.read import read
+from bladerub.io.errors import format_value
 from bladerub.io.folders import ROOT
 
 STUDY = ROOT / "config" / "config.yaml"

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from study_fixtures import CONFIG as STUDY
+from study_fixtures import CONFIG
 
 
 def just_above(value):
@@ -20,9 +20,9 @@ def change(config, path, value):
     config[key] = copy.deepcopy(value)
 
 
-CLEARANCE = min(STUDY["contact"]["clearance"].values()) * STUDY["blade"]["length"]
+CLEARANCE = CONFIG.contact.clearance.leading_edge * CONFIG.blade.length
 WAVES = np.cos(np.outer(np.linspace(0, 2 * np.pi, 100_000), [2, 5])) @ [0.25, 1.0]
-DEEPEST = STUDY["casings"]["2nd5nd"]["amplitude"] * (1 - WAVES.min() / WAVES.max()) + CLEARANCE
+DEEPEST = CONFIG.casings["2nd5nd"].amplitude * (1 - WAVES.min() / WAVES.max()) + CLEARANCE
 NO_HISTORY = {"analysis.histories": []}
 TWO_SPEEDS = NO_HISTORY | {"speeds": {"start": 0.29, "stop": 0.3, "step": 0.01, "extra": []}}
 COARSE = {"contact.elements": 100, "analysis.max_order": 50}

@@ -1,12 +1,12 @@
 import pytest
 
 from bladerub import plugins
-from bladerub.config.fields import Section
 from bladerub.config.keys import NUMBERS, key_of
-from bladerub.config.models.study import defaults, required, whole
 from bladerub.config.problems import problems
 from bladerub.config.read import load
 from bladerub.io.folders import PACKAGE, ROOT
+from bladerub.settings.fields import Section
+from bladerub.settings.study import defaults, required, whole
 
 STUDY = load(ROOT / "config" / "config.yaml")
 

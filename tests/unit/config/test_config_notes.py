@@ -3,7 +3,7 @@ import yaml
 
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
-from bladerub.config.read import read_with_notes
+from bladerub.config.read import read, read_with_notes
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases, keeps_history, listed_case, speeds
 from bladerub.study.orders import peak_orders, peak_settings
@@ -76,9 +76,9 @@ def test_a_text_means_the_same_in_the_file_of_the_study_and_laid_over_it(laid_ov
 
 
 def test_the_orders_and_histories_of_the_paper_are_those_of_the_study():
-    analysis = yaml.safe_load(STUDY.read_text(encoding="utf-8"))["analysis"]
-    assert analysis["peaks"]["orders"] == list(ORDERS)
-    assert {(listed_case(entry), entry["f_omega"]) for entry in analysis["histories"]} == HISTORIES
+    analysis = read(STUDY).analysis
+    assert analysis.peaks.orders == list(ORDERS)
+    assert {(listed_case(entry), entry.f_omega) for entry in analysis.histories} == HISTORIES
 
 
 @pytest.mark.parametrize(
@@ -96,7 +96,7 @@ def test_a_casing_that_does_not_excite_4_and_6_has_orders_of_its_own(
 ):
     content = on_casing(nodal_diameters=diameters, weights=weights)
     config, notes = laid_over(content | {"speeds": {"start": start, "stop": 0.4, "step": 0.01, "extra": []}})
-    assert peak_orders(config, "own") == peak_settings(config, "own")["orders"] == (orders or [4, 6])
+    assert peak_orders(config, "own") == peak_settings(config, "own").orders == (orders or [4, 6])
     if orders:
         assert f"casings.own.peak_orders: {orders}" in notes[1]
     else:

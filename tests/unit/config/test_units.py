@@ -9,8 +9,8 @@ from bladerub.blade.cache import first_frequency, kept_frequency
 from bladerub.blade.files import made_from
 from bladerub.config.quantities import number, references
 from bladerub.config.read import read
-from bladerub.config.units import speeds_in_words
 from bladerub.io.folders import ROOT
+from bladerub.settings.units import speeds_in_words
 from bladerub.study.grid import coating_cases, run_spec
 from bladerub.study.plan import coating_plan
 

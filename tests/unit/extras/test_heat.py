@@ -27,8 +27,8 @@ def test_each_case_is_its_run_and_what_grows_is_followed(monkeypatch, config):
     cold = table.conductivity.isna()
     assert table.max_temperature_rise[~cold].eq(100).all()
     assert table.max_temperature_rise[cold].isna().all()
-    longest = config["analysis"]["divergence"]["confirmation_revolutions"]
-    assert (table.revolutions == np.where(table.theta > 0, longest, config["solver"]["revolutions"])).all()
+    longest = config.analysis.divergence.confirmation_revolutions
+    assert (table.revolutions == np.where(table.theta > 0, longest, config.solver.revolutions)).all()
     assert (table.divergent == (table.theta > 0)).all()
     warm = table.growth_per_revolution[(table.theta > 0) & ~cold]
     np.testing.assert_allclose(warm, np.expm1(0.05), rtol=1e-6)

@@ -1,3 +1,5 @@
+from study_fixtures import changed
+
 from bladerub.contact.spec import PLASTIC
 from bladerub.extras import law_reading
 from bladerub.study import grid
@@ -15,7 +17,7 @@ def test_the_law_of_the_elements_is_plastic_unless_the_config_names_another_or_a
     config, monkeypatch, tmp_path
 ):
     def with_law(**law):
-        return config | {"contact": config["contact"] | {"law": law}}
+        return changed(config, contact={"law": law})
 
     monkeypatch.setattr(law_reading, "study_folder", lambda: tmp_path)
     case = CoatingCase("2nd", 1.1, 0.5, 0.0)

@@ -2,7 +2,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.config.read import validate
 from bladerub.extras.rotor import pattern, summary
 from bladerub.extras.rotor.plan import Combination, read_plan
 from bladerub.io.folders import ROOT
@@ -12,10 +11,9 @@ CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 
 
 def test_draws_are_those_of_their_number_whatever_the_others_and_a_plan_may_have_units(config, tmp_path):
-    study = validate(config)
-    plan = read_plan(ROOT / "config" / "rotor.yaml", study)
+    plan = read_plan(ROOT / "config" / "rotor.yaml", config)
     name = Combination(CASE, 0.346, 4, 5e-5, 0.005).name
-    runs = plan.runs(study, name).runs
+    runs = plan.runs(config, name).runs
     assert not any(run.follow for run in runs)
     assert runs[0].n_blades == 4
     assert len(runs) == plan.draws[name]
@@ -29,7 +27,7 @@ def test_draws_are_those_of_their_number_whatever_the_others_and_a_plan_may_have
     text = (ROOT / "config" / "rotor.yaml").read_text()
     assert "length_scatter: [5.0e-5]" in text
     (tmp_path / "plan.yaml").write_text(text.replace("length_scatter: [5.0e-5]", "length_scatter: [50 µm]"))
-    assert read_plan(tmp_path / "plan.yaml", study) == plan
+    assert read_plan(tmp_path / "plan.yaml", config) == plan
 
 
 def test_the_distribution_of_known_draws():

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from study_fixtures import changed
 
 from bladerub import plugins
 from bladerub.blade.accuracy import accuracy_table
@@ -22,8 +23,8 @@ from bladerub.study.maps import DATASETS
 def test_a_small_study_has_all_runs_judges_the_claims_asked_for_and_is_the_same_without_a_folder(
     study, blade, simulated, growing, repeated, monkeypatch, tmp_path
 ):
-    study["coatings"] = [{"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.15]}]
-    study["analysis"] |= {"histories": [], "peaks": study["analysis"]["peaks"] | {"orders": [4, 6]}}
+    coatings = [{"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.15]}]
+    study = changed(study, coatings=coatings, analysis={"histories": [], "peaks": {"orders": [4, 6]}})
     monkeypatch.setattr(small_study, "read_reduced_blade", lambda _: blade)
     monkeypatch.setattr(small_study, "blade_digest", lambda _: "blade")
     accuracy = pd.DataFrame({"f_omega": 0.1, "mode": range(1, 8), "relative_error": 1e-3})
@@ -79,7 +80,7 @@ def test_both_laws_are_compared_speed_by_speed_for_coatings_that_are_no_part_of_
     assert (first.reversed_theta, first.reversed_coulomb) == pytest.approx((0.1, 0.2))
     assert first.slowest_sliding == -0.2
     assert (first.status_theta, first.status_coulomb) == ("completed", "unbounded")
-    config["friction"] = [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.15, 0.3]}]
+    config = changed(config, friction=[{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.15, 0.3]}])
     cases = compared(config)
     assert [case.name for case in cases[:2]] == ["2nd_E3_K0.5_theta0.15", "2nd_E3_K0.5_mu0.151135"]
     assert [grid.case_from_name(config, case.name) for case in cases] == cases

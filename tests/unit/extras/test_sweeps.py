@@ -44,7 +44,7 @@ def make(config, blade, monkeypatch, angle, tmp_path):
 @pytest.mark.parametrize("direction", sweep_grid.DIRECTIONS)
 def test_spectra_are_of_windows_in_the_order_of_speed(make, config, direction):
     sweep = make(direction, 0.05)
-    window = config["analysis"]["spectrum_revolutions"]
+    window = config.analysis.spectrum_revolutions
     assert sweep.f_omega.size == REVOLUTIONS - window + 1
     assert (np.diff(sweep.f_omega) > 0).all()
     assert (np.diff(sweep.speed) > 0).all() == (direction == "up")
@@ -56,13 +56,13 @@ def test_spectra_are_of_windows_in_the_order_of_speed(make, config, direction):
 
 
 def test_peaks_stand_beside_those_at_constant_speed(make, make_map, config):
-    config["sweeps"]["survival"] = 0.5
+    config = config.replaced("sweeps.survival", 0.5)
     maps = {CASE: make_map(CASE, {4: (0.3, 1.5e-3), 6: (0.2, 5e-4)})}
     table = sweeps.table(config, [make("up", 0.05), make("down", 0.05), make("up", 7.0)], maps)
     assert set(table.columns) <= described_columns(*plugins.files("columns.csv")).keys()
     assert len(table) == 6
     whole = table[(table.order == 4) & (table.rate == 0.05)]
-    constant = peak(maps[CASE], 4, config["analysis"]["peaks"])
+    constant = peak(maps[CASE], 4, config.analysis.peaks)
     assert (whole.amplitude_constant == constant.amplitude).all()
     assert (whole.f_peak_constant == 0.3).all()
     assert whole.f_peak.to_numpy() == pytest.approx(0.3, abs=0.003)

@@ -27,6 +27,7 @@ EDITS = [  # the file, the digest that it belongs to, one that it does not
     ("extras/chart/search.py", CHART, SOLVER),
     ("extras/chart/point.py", CHART, SOLVER),
 ]
+NUMBERLESS = ("io/", "plugins.py", "settings/")  # compute no number
 CONFIG = {"study/grid.py", "study/casings.py"}
 """What makes values of the config, which are in the key."""
 OF_CHART = {"study/orders.py", "study/paper.py", "study/manifest.py"}  # manifest: the name of a longer run
@@ -86,7 +87,7 @@ def left_out(entry, *digests):
             found.add(path)
             waiting += sources._imports(path)
     names = {path.relative_to(sources.PACKAGE).as_posix() for path in found - covered}
-    return {name for name in names if not name.startswith(("io/", "plugins.py"))}  # compute no number
+    return {name for name in names if not name.startswith(NUMBERLESS)}
 
 
 @pytest.mark.parametrize(

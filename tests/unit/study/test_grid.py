@@ -3,6 +3,7 @@ import math
 
 import pandas as pd
 import pytest
+from study_fixtures import changed
 
 from bladerub.io import tables
 from bladerub.study import divergence, grid, peak_table
@@ -27,17 +28,18 @@ def test_the_papers_coatings_a_softer_one_and_the_rigid_casing_have_names_that_l
 
 
 def test_a_coating_listed_twice_is_named(config):
-    config["coatings"].append({"casing": "2nd", "E": [2.0], "K": [0.5], "theta": [0.15]})
+    entry = {"casing": "2nd", "E": [2.0], "K": [0.5], "theta": [0.15]}
+    coatings = [*config.plain()["coatings"], entry]
     with pytest.raises(ValueError, match=r"coatings\[4\]: 2nd_E2_K0.5_theta0.15 is listed twice"):
-        grid.coating_cases(config)
-    config["coatings"][4] |= {"E": list(range(3, 73)), "K": list(range(71))}
+        grid.coating_cases(changed(config, coatings=coatings))
+    entry |= {"E": list(range(3, 73)), "K": list(range(71))}
     with pytest.raises(ValueError, match=r"coatings\[4\]: .* to 5033, .* must be 5000 or fewer"):
-        grid.coating_cases(config)
+        grid.coating_cases(changed(config, coatings=coatings))
 
 
 @pytest.mark.parametrize(("friction", "name"), [(0, "2nd_rigid_mu0"), (0.15, "2nd_rigid_mu0.15")])
 def test_the_rigid_casing_is_a_coating_without_give_at_its_angle_of_friction(config, friction, name):
-    config["coatings"] = [{"casing": "2nd", "coating": "rigid", "friction": [0.5, friction]}]
+    config = changed(config, coatings=[{"casing": "2nd", "coating": "rigid", "friction": [0.5, friction]}])
     case = grid.case_from_name(config, name)
     assert case.is_rigid
     assert case.friction == pytest.approx(friction)
@@ -47,27 +49,27 @@ def test_the_rigid_casing_is_a_coating_without_give_at_its_angle_of_friction(con
 
 
 def test_speeds_are_sorted_unique_and_include_both_ends_and_the_extra_ones(config):
-    config["speeds"] = {"start": 0.02, "stop": 0.4, "step": 0.002, "extra": [0.197, 0.19]}
-    speeds = grid.speeds(config)
+    of_paper = {"start": 0.02, "stop": 0.4, "step": 0.002, "extra": [0.197, 0.19]}
+    speeds = grid.speeds(changed(config, speeds=of_paper))
     assert len(speeds) == 192  # 191 of the grid, and 0.197; 0.19 is on the grid
     assert speeds == sorted({*speeds, 0.02, 0.197, 0.4})
-    config["speeds"] = {"start": 0.02, "stop": 0.32, "step": 0.1, "extra": []}
+    coarse = {"start": 0.02, "stop": 0.32, "step": 0.1, "extra": []}
     assert (0.32 - 0.02) / 0.1 < 3  # rounding loses no speed at the stop
-    assert grid.speeds(config) == [0.02, 0.12, 0.22, 0.32]
+    assert grid.speeds(changed(config, speeds=coarse)) == [0.02, 0.12, 0.22, 0.32]
 
 
 def test_run_spec_is_in_si(config, case):
     spec = grid.run_spec(config, case, 0.19)
     assert spec.clearance == pytest.approx((1.5e-4 * 0.2, 4.3e-4 * 0.2))
-    assert spec.displacement_limit == pytest.approx(config["solver"]["displacement_limit"] * 0.2)
-    assert spec.casing.start_angle == pytest.approx(math.radians(config["casings"]["2nd"]["start_angle"]))
+    assert spec.displacement_limit == pytest.approx(config.solver.displacement_limit * 0.2)
+    assert spec.casing.start_angle == pytest.approx(math.radians(config.casings["2nd"].start_angle))
     assert (spec.coating.E, spec.coating.K, spec.coating.theta) == (2.0, 0.5, 0.15)
 
 
 def test_the_scale_of_another_blade_multiplies_lengths_moduli_and_times(config, case):
-    config["solver"]["max_time_step"] = 1e-6
+    config = changed(config, solver={"max_time_step": 1e-6})
     before = pd.json_normalize(dataclasses.asdict(grid.run_spec(config, case, 0.19))).iloc[0]
-    config["contact"]["scale"] = {"length": 3.0, "modulus": 5.0, "time": 7.0}
+    config = changed(config, contact={"scale": {"length": 3.0, "modulus": 5.0, "time": 7.0}})
     after = pd.json_normalize(dataclasses.asdict(grid.run_spec(config, case, 0.19))).iloc[0]
     lengths = ("casing.amplitude", "casing.interference", "coating.thickness", "tip.edge_drop")
     factors = dict.fromkeys(lengths, 3.0) | {"coating.modulus_unit": 5.0, "max_time_step": 7.0}
@@ -76,7 +78,7 @@ def test_the_scale_of_another_blade_multiplies_lengths_moduli_and_times(config, 
 
 
 def test_friction_instead_of_theta_is_coulombs_law_at_its_angle(config):
-    config["coatings"] = [{"casing": "2nd", "E": [2], "K": [0.5], "friction": [0.15]}]
+    config = changed(config, coatings=[{"casing": "2nd", "E": [2], "K": [0.5], "friction": [0.15]}])
     (case,) = grid.coating_cases(config)
     assert case.name == "2nd_E2_K0.5_mu0.15"
     assert case == grid.case_from_name(config, case.name)
@@ -88,23 +90,23 @@ def test_friction_instead_of_theta_is_coulombs_law_at_its_angle(config):
 
 def test_lists_of_an_entry_stand_for_all_combinations(config):
     entry = {"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0]}
-    config["coatings"] = [entry, entry | {"damping_ratio": [1e-3, 2e-3], "interference": [3e-4, 4e-4]}]
+    variants = entry | {"damping_ratio": [1e-3, 2e-3], "interference": [3e-4, 4e-4]}
+    run = {"casing": "2nd", "E": 2, "K": 0.5, "theta": 0, "damping_ratio": 1e-3, "interference": 3e-4}
+    config = changed(config, coatings=[entry, variants], analysis={"histories": [run | {"f_omega": 0.19}]})
     cases = grid.coating_cases(config)
     assert cases[0] == PLAIN
     assert [case.variant for case in cases[1:]] == [f"xi0.00{x}_d0.000{d}" for x in (1, 2) for d in (3, 4)]
     assert grid.case_from_name(config, cases[2].name) == cases[2]
-    run = {"casing": "2nd", "E": 2, "K": 0.5, "theta": 0, "damping_ratio": 1e-3, "interference": 3e-4}
-    config["analysis"]["histories"] = [run | {"f_omega": 0.19}]
     assert [grid.keeps_history(config, case, 0.19) for case in cases] == [False, True, False, False, False]
 
 
 def test_a_variant_changes_its_own_runs_alone(config):
-    config["contact"]["scale"] = {"length": 2.0, "modulus": 1.0, "time": 1.0}
+    config = changed(config, contact={"scale": {"length": 2.0, "modulus": 1.0, "time": 1.0}})
     before, after = (grid.run_spec(config, case, 0.19) for case in (PLAIN, VARIANT))
     assert (after.damping_ratio, after.coating.thickness, after.casing.interference) == (1e-3, 8e-3, 8e-4)
     parts = [pd.json_normalize(dataclasses.asdict(spec)).iloc[0].to_dict() for spec in (before, after)]
-    changed = {name for name, value in parts[0].items() if parts[1][name] != value}
-    assert changed == {"damping_ratio", "coating.thickness", "casing.interference"}
+    different = {name for name, value in parts[0].items() if parts[1][name] != value}
+    assert different == {"damping_ratio", "coating.thickness", "casing.interference"}
     keys = [coating_plan(config, case).runs[0].key("blade") for case in (PLAIN, VARIANT)]
     assert keys[0] != keys[1]
 

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from bladerub.settings.analysis import Divergence
 from bladerub.study.growth import growth, judge, needs_confirmation
 
-SETTINGS = {"revolutions": 10, "growth": 0.01, "confidence": 0.95, "confirmation_revolutions": 60}
+SETTINGS = Divergence(revolutions=10, growth=0.01, confidence=0.95, confirmation_revolutions=60)
 NUMBER = np.arange(1.0, 21.0)
 LONG = np.arange(1.0, 61.0)
 
@@ -113,5 +114,5 @@ def test_completed_runs_that_grow_need_confirmation_if_wanted():
     assert needs_confirmation(1.03**NUMBER, "completed", SETTINGS)
     assert needs_confirmation(saturation(NUMBER, 8), "completed", SETTINGS)
     assert not needs_confirmation(1.03**NUMBER, "unbounded", SETTINGS)
-    assert not needs_confirmation(1.03**NUMBER, "completed", SETTINGS | {"confirmation_revolutions": 0})
+    assert not needs_confirmation(1.03**NUMBER, "completed", SETTINGS.replaced("confirmation_revolutions", 0))
     assert not needs_confirmation(1.03 ** np.arange(60), "completed", SETTINGS)  # as long as a longer run

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import h5py
 import numpy as np
 import pytest
+from study_fixtures import changed
 
 from bladerub.contact.result import Energy
 from bladerub.io import hdf5
@@ -27,7 +28,7 @@ def done(simulated, growing, compute, tmp_path):
 
 @pytest.fixture
 def look(study, case, tmp_path):
-    return lambda **arguments: take(study, coating_plan(study, case), tmp_path, "blade", **arguments)
+    return lambda study=study, **more: take(study, coating_plan(study, case), tmp_path, "blade", **more)
 
 
 @pytest.fixture
@@ -51,18 +52,21 @@ def test_what_is_missing_and_what_is_done_is_counted(inventory, request, tmp_pat
 
 def test_longer_runs_are_those_of_the_plan_not_of_the_manifest(done, inventory, study, tmp_path):
     for revolutions, expected in ((60, (1, 1)), (80, (1, 0)), (0, (0, 0))) * 2:
-        study["analysis"]["divergence"]["confirmation_revolutions"] = revolutions
-        found = inventory()
+        of_length = study.replaced("analysis.divergence.confirmation_revolutions", revolutions)
+        found = inventory(study=of_length)
         assert (found["longer_planned"], found["longer_done"]) == expected
         if revolutions == 0:
             (tmp_path / "manifest.tsv").unlink(missing_ok=True)
 
 
 def test_a_changed_setting_makes_every_run_stale_and_a_speed_only_itself(done, inventory, study):
-    study["speeds"]["extra"] = [0.19, 0.25]
-    assert counts(inventory()) == {**NONE, "done": 4, "missing": 1, "unbounded": 1}
-    study["contact"]["damping_ratio"] = 1e-3
-    assert counts(inventory()) == {**NONE, "stale": 4, "missing": 1}
+    study = changed(study, speeds={"extra": [0.19, 0.25]})
+    assert counts(inventory(study=study)) == {**NONE, "done": 4, "missing": 1, "unbounded": 1}
+    assert counts(inventory(study=study.replaced("contact.damping_ratio", 1e-3))) == {
+        **NONE,
+        "stale": 4,
+        "missing": 1,
+    }
 
 
 @pytest.mark.parametrize("listed", [True, False])

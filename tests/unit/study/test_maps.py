@@ -17,7 +17,6 @@ def folder(tmp_path, config, case, make_result, write_run):
 
     The middle one was repeated for longer; of the last there is a longer one that the study has no use for.
     """
-    config["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": [0.19]}
     rows = []
     for f_omega, order in zip(SPEEDS, (10, 6, 4), strict=True):
         result = make_result(order=order, complete=15 if order == 4 else None)
@@ -25,7 +24,7 @@ def folder(tmp_path, config, case, make_result, write_run):
         name = f"{grid.speed_name(f_omega)}.h5"
         write_run(name, f"key {order}", result, history=order == 6, spec=spec)
         if order != 10:
-            long_spec = confirmation_spec(spec, config["analysis"]["divergence"])
+            long_spec = confirmation_spec(spec, config.analysis.divergence)
             longer = make_result(revolutions=60, growth=0.03)
             write_run(f"confirmation/{name}", f"long {order}", longer, spec=long_spec)
         long_key = "long 6" if order == 6 else ""

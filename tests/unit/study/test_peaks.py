@@ -12,7 +12,7 @@ CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 
 @pytest.fixture
 def settings(config):
-    return config["analysis"]["peaks"] | {"order_halfwidth": 0.25, "speed_window": [0.85, 1.25]}
+    return config.analysis.peaks.model_copy(update={"order_halfwidth": 0.25, "speed_window": [0.85, 1.25]})
 
 
 @pytest.mark.parametrize("order", [4, 6])
@@ -96,7 +96,7 @@ def test_the_table_has_a_row_per_run_judged_by_the_longer_one_where_there_is_one
 
 def test_a_steady_and_a_growing_run(spec, config, make_result):
     def summed_up(result):
-        return summarise(stored_run(CASE, spec, result, "key", config["analysis"], False), config["analysis"])
+        return summarise(stored_run(CASE, spec, result, "key", config.analysis, False), config.analysis)
 
     assert summed_up(make_result(order=6, amplitude=1e-3, depth=2e-4)) == {
         "peak_amplitude": pytest.approx(1e-3, rel=1e-4),

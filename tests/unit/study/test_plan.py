@@ -4,6 +4,7 @@ import dataclasses
 import math
 
 import pytest
+from study_fixtures import changed
 
 from bladerub.extras.export.claimed import claimed_run
 from bladerub.io import provenance
@@ -16,7 +17,7 @@ from bladerub.study.store import StoredRun
 
 @pytest.fixture
 def key(config, spec):
-    def make(spec=spec, blade="blade", history=False):
+    def make(spec=spec, blade="blade", history=False, config=config):
         return planned_run(config, spec, "0.1900.h5", history).key(blade)
 
     return make
@@ -55,8 +56,8 @@ def test_what_else_shapes_the_file_changes_the_key(key, config, monkeypatch):
     cases = CoatingCase.rigid("2nd", 0.0), CoatingCase("2nd", 1e6, 1e6, 0.0)
     keys += [key(run_spec(config, case, 0.19)) for case in cases]
     for setting in ("spectrum_revolutions", "max_order"):
-        config["analysis"][setting] += 1
-        keys.append(key())
+        path, value = f"analysis.{setting}", getattr(config.analysis, setting)
+        keys.append(key(config=config.replaced(path, value + 1)))
     for digest in ("solver_digest", "storage_digest"):
         monkeypatch.setattr(plan, digest, lambda: "other")
         keys.append(key())
@@ -72,28 +73,26 @@ def test_the_code_of_a_motion_is_part_of_the_key_of_runs_that_have_it_alone(key,
 
 def test_settings_of_maps_and_tables_the_folder_and_the_commit_leave_the_key(key, config, monkeypatch):
     before = key()
-    config["analysis"]["lobe_prominence"] = 0.9
-    config["analysis"]["peaks"]["orders"] = [2]
-    config["analysis"]["divergence"] = {"growth": 0.5, "confirmation_revolutions": 100}
-    config["analysis"]["histories"] = []
-    config["results"] = "elsewhere"
+    divergence = {"growth": 0.5, "confirmation_revolutions": 100}
+    analysis = {"lobe_prominence": 0.9, "peaks": {"orders": [2]}, "divergence": divergence, "histories": []}
+    config = changed(config, analysis=analysis, results="elsewhere")
     monkeypatch.setattr(provenance, "git_state", lambda: ("another", "modified"))
-    assert key() == before
+    assert key(config=config) == before
 
 
 def test_a_finer_grid_or_other_coatings_leave_the_keys(config, case):
     runs = coating_plan(config, case).runs
     assert [run.file for run in runs if run.keep_history] == ["0.1900.h5", "0.1970.h5", "0.2060.h5"]
     before = {run.file: run.key("blade") for run in runs}
-    config["speeds"]["step"] /= 2
-    config["coatings"] = [{"casing": case.casing, "E": [2, 3], "K": [0.5], "theta": [0.15]}]
+    coatings = [{"casing": case.casing, "E": [2, 3], "K": [0.5], "theta": [0.15]}]
+    config = changed(config, speeds={"step": config.speeds.step / 2}, coatings=coatings)
     assert case in grid.coating_cases(config)
     after = {run.file: run.key("blade") for run in coating_plan(config, case).runs}
     assert before.items() < after.items()
 
 
 def test_the_longer_run_is_the_same_run_for_longer(config, spec):
-    settings = config["analysis"]["divergence"]
+    settings = config.analysis.divergence
     assert confirmation_spec(spec, settings).revolutions == 60
     run = planned_run(config, spec, "0.1900.h5", keep_history=True)
     longer = longer_run(config, run)
@@ -103,12 +102,12 @@ def test_the_longer_run_is_the_same_run_for_longer(config, spec):
 
 
 def test_every_setting_decides_which_runs_are_repeated_and_none_where_none_is(config):
-    settings = config["analysis"]["divergence"]
+    settings = config.analysis.divergence
     before = confirmation_determinants(settings)
-    for name, value in settings.items():
-        assert confirmation_determinants(settings | {name: 2 * value}) != before
-    off = settings | {"confirmation_revolutions": 0}
-    assert confirmation_determinants(off) == confirmation_determinants(off | {"growth": 0.5}) == {}
+    for name, value in settings.plain().items():
+        assert confirmation_determinants(settings.replaced(name, 2 * value)) != before
+    off = settings.replaced("confirmation_revolutions", 0)
+    assert confirmation_determinants(off) == confirmation_determinants(off.replaced("growth", 0.5)) == {}
 
 
 @pytest.mark.parametrize(("history", "revolutions"), [(False, 20), (True, 3)])
@@ -117,7 +116,7 @@ def test_a_stored_run_is_planned_again_from_what_it_says(config, case, spec, his
     attributes = dataclasses.asdict(case) | {"f_omega": spec.f_omega, "revolutions": revolutions}
     stored = StoredRun(attributes, {"radial_displacement": None} if history else {})
     claimed = claimed_run(config, "mine.h5", stored)
-    config["analysis"]["spectrum_revolutions"] = min(10, revolutions)
+    config = config.replaced("analysis.spectrum_revolutions", min(10, revolutions))
     assert claimed == planned_run(config, spec, "mine.h5", history)
     with pytest.raises(KeyError):
         claimed_run(config, "mine.h5", StoredRun(attributes | {"casing": "unknown"}, {}))

@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 import pandas as pd
 import pytest
+from study_fixtures import changed
 
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
@@ -45,8 +46,7 @@ def test_missing_damaged_and_new_runs_are_computed_and_no_others(compute, study,
     simulated.clear()
     assert compute() == rows
     assert simulated == [0.1, 0.2, 0.3]
-    study["speeds"]["extra"].append(0.25)
-    compute()
+    compute(study=changed(study, speeds={"extra": [0.19, 0.25]}))
     assert simulated == [0.1, 0.2, 0.3, 0.25]
 
 
@@ -96,26 +96,27 @@ def test_runs_that_grow_are_repeated_for_longer_once(compute, simulated, growing
 def test_another_length_of_confirmation_repeats_only_what_grows(compute, study, simulated, growing, repeated):
     growing[0.2] = 0.03
     before = compute()
-    settings = study["analysis"]["divergence"]
-    settings["confirmation_revolutions"] = 40
-    rows = compute()
+    rows = compute(study=study.replaced("analysis.divergence.confirmation_revolutions", 40))
     assert (len(simulated), repeated) == (4, [0.2, 0.2])
     assert [row.run_key for row in rows] == [row.run_key for row in before]
-    settings["confirmation_revolutions"] = 60
     assert compute() == before  # from the archive
-    settings["confirmation_revolutions"] = 0
-    assert not any(row.confirmation_key for row in compute())
+    alone = study.replaced("analysis.divergence.confirmation_revolutions", 0)
+    assert not any(row.confirmation_key for row in compute(study=alone))
     assert (len(simulated), len(repeated)) == (4, 2)
 
 
 @pytest.fixture
 def quick(study, case):
     """A study whose runs take a blink, and its plan."""
-    study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.1, "extra": []}
-    study["contact"]["elements"] = 200
-    study["solver"].update(revolutions=3, steps_per_element=20, max_time_step=2e-5)
-    study["analysis"]["spectrum_revolutions"] = 2
-    study["analysis"]["divergence"].update(revolutions=3, growth=-1.0, confirmation_revolutions=6)
+    study = changed(
+        study.replaced("speeds.extra", []),
+        contact={"elements": 200},
+        solver={"revolutions": 3, "steps_per_element": 20, "max_time_step": 2e-5},
+        analysis={
+            "spectrum_revolutions": 2,
+            "divergence": {"revolutions": 3, "confirmation_revolutions": 6},
+        },
+    ).replaced("analysis.divergence.growth", -1.0)
     return study, coating_plan(study, case)
 
 

@@ -105,7 +105,7 @@ def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_pat
     for folder in [ROOT] if by_file else [ROOT, tmp_path]:  # there is a study, or none
         monkeypatch.chdir(folder)
         study, notes, laid_over = settings.read(workflow, given)
-        assert (study["solver"]["revolutions"], notes) == (30, [])
+        assert (study.solver.revolutions, notes) == (30, [])
         assert list(laid_over.files) == files
         assert by_file or laid_over == Record((), given)
 

@@ -3,11 +3,14 @@
 import argparse
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
 from bladerub.io.errors import BadInput
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
+
+if TYPE_CHECKING:
+    from bladerub.settings.study import Config
 
 _LOOPS = {"numpy": "NumPy", "numba": "the same compiled by numba", "production": "loop of the study"}
 
@@ -50,14 +53,16 @@ def add_to(commands: Any) -> None:
 
 def benchmark(options: argparse.Namespace) -> None:
     """Measure, and print the figures."""
+    from bladerub.settings.coatings import RigidCoating
+
     config = inputs.read_config(options)
     inputs.require(options, rounds=(1, 1000), cores=(1, 1_000_000))
-    if all(entry.get("coating") == "rigid" for entry in config["coatings"]):
+    if all(isinstance(entry, RigidCoating) for entry in config.coatings):
         raise BadInput("coatings: must have an abradable one, as contact with it is what is measured")
     for n in options.nodes:
         if not FEWEST_NODES <= n <= MOST_NODES:
             raise BadInput(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
-    if options.nodes and "matrices" in config["blade"].get("source", {}):
+    if options.nodes and (source := config.blade.plugged("source")) and source.matrices:
         raise BadInput("--nodes: a blade of matrices has the interface nodes that its folder marks")
     if options.gpu is not None:
         _on_gpu(options, config)
@@ -66,7 +71,7 @@ def benchmark(options: argparse.Namespace) -> None:
         from bladerub.extras.benchmark import record
 
         record.recorded(options.table)  # another table is refused before anything takes time
-    stored_blade = inputs.read_blade(options, config)
+    stored_blade, config = inputs.read_blade(options, config)
     blade = stored_blade.reduced
 
     from bladerub.extras.benchmark.measure import benchmark as measure
@@ -86,11 +91,11 @@ def benchmark(options: argparse.Namespace) -> None:
     if options.table:
         from bladerub.io.provenance import provenance
 
-        record.replace(options.table, record.rows(figures), record.MACHINE, provenance(config))
+        record.replace(options.table, record.rows(figures), record.MACHINE, provenance(config.plain()))
     inputs.show(options, figures, _in_words)
 
 
-def _on_gpu(options: argparse.Namespace, config: dict[str, Any]) -> None:
+def _on_gpu(options: argparse.Namespace, config: "Config") -> None:
     inputs.require(options, gpu=(1, 1_000_000))
     if options.nodes or options.stress:
         raise BadInput("--gpu: goes with neither --nodes nor --stress")
@@ -103,10 +108,10 @@ def _on_gpu(options: argparse.Namespace, config: dict[str, Any]) -> None:
         record.recorded(options.table, gpu.COLUMNS)  # another table is refused before anything takes time
     with inputs.refused(BadInput):
         name = device.describe()
-    blade = inputs.read_blade(options, config).reduced
-    figures = gpu.compare(blade, config, device.run, options.gpu, _report_stage)
+    blade, config = inputs.read_blade(options, config)
+    figures = gpu.compare(blade.reduced, config, device.run, options.gpu, _report_stage)
     if options.table:
-        record.replace(options.table, gpu.row(name, figures), ["gpu"], provenance(config))
+        record.replace(options.table, gpu.row(name, figures), ["gpu"], provenance(config.plain()))
     inputs.show(options, {"gpu": name, **figures}, _of_gpu_in_words)
 
 

@@ -15,7 +15,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -27,6 +26,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.extras.benchmark.machine import cores as cores_here
 from bladerub.extras.study_runs import StudyRun, study_runs
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.job import compute
@@ -49,9 +49,7 @@ class _Cost(NamedTuple):
     is_near_a_peak: bool
 
 
-def estimate(
-    blade: ReducedBlade, config: Mapping[str, Any], cores: int, drawn: int = DRAWN
-) -> dict[str, Any]:
+def estimate(blade: ReducedBlade, config: Config, cores: int, drawn: int = DRAWN) -> dict[str, Any]:
     """Estimate the time of the study `config` from `drawn` of its runs, on so many `cores`.
 
     Returns CPU seconds of one run (``seconds_per_run``, of the length in the config), the number of ``runs``
@@ -84,7 +82,7 @@ def estimate(
     }
 
 
-def _cost(blade: ReducedBlade, config: Mapping[str, Any], folder: Path, run: StudyRun) -> _Cost:
+def _cost(blade: ReducedBlade, config: Config, folder: Path, run: StudyRun) -> _Cost:
     file, spec = f"{run.name.replace('/', '_')}.h5", run_spec(config, run.case, run.f_omega)
     planned = planned_run(config, spec, file, False, run.row)
     start = time.thread_time()  # other processes and threads do not count
@@ -99,18 +97,16 @@ def _cost(blade: ReducedBlade, config: Mapping[str, Any], folder: Path, run: Stu
     return _Cost(run_end - start, followed, _is_near_a_peak(blade, config, run))
 
 
-def _make(
-    blade: ReducedBlade, config: Mapping[str, Any], case: CoatingCase, planned: PlannedRun, folder: Path
-) -> bool:
+def _make(blade: ReducedBlade, config: Config, case: CoatingCase, planned: PlannedRun, folder: Path) -> bool:
     """Compute and store a run; return whether it grows."""
-    stored = compute(case, planned, blade, "", config["analysis"])
-    write_run(folder / planned.file, stored, provenance(config))
+    stored = compute(case, planned, blade, "", config.analysis)
+    write_run(folder / planned.file, stored, provenance(config.plain()))
     amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
-    return needs_confirmation(amplitude, status, config["analysis"]["divergence"])
+    return needs_confirmation(amplitude, status, config.analysis.divergence)
 
 
-def _is_near_a_peak(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> bool:
-    low, high = config["analysis"]["peaks"]["speed_window"]
+def _is_near_a_peak(blade: ReducedBlade, config: Config, run: StudyRun) -> bool:
+    low, high = config.analysis.peaks.speed_window
     over_crossing = run.f_omega / first_frequency(blade, [run.f_omega])[0]
     return any(low <= order * over_crossing <= high for order in peak_orders(config, run.case.casing))
 

@@ -16,6 +16,7 @@ from bladerub.extras.benchmark import machine
 from bladerub.extras.gpu.batch import Device
 from bladerub.extras.gpu.many import LeftOut, simulate_many
 from bladerub.extras.study_runs import study_runs
+from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec
 from bladerub.study.solver import each_done
 
@@ -45,7 +46,7 @@ def measures(result: RunResult) -> Measures:
 
 def compare(
     blade: ReducedBlade,
-    config: Mapping[str, Any],
+    config: Config,
     device: Callable[..., Any],
     n_compared: int,
     report: Callable[[str], None] = lambda line: None,

@@ -6,7 +6,7 @@ a third of the steps, once vibrating freely far from it. Rounds take turns, and 
 
 import statistics
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +20,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.extras.benchmark import machine, peak, plain
 from bladerub.extras.benchmark.estimate import estimate
 from bladerub.numerics.vectors import LANES
+from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
 SHARE = 1 / 3
@@ -41,7 +42,7 @@ FLOPS_PER_NODE = 60
 
 def benchmark(
     blade: ReducedBlade,
-    config: Mapping[str, Any],
+    config: Config,
     rounds: int,
     cores: int | None = None,
     progress: Callable[[str], None] = lambda stage: None,
@@ -139,7 +140,7 @@ def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
     return (n * (FLOPS_PER_MODE * single + FLOPS_PER_FLIGHT * flights) + contact * touching) / steps
 
 
-def middle_run(config: Mapping[str, Any]) -> RunSpec:
+def middle_run(config: Config) -> RunSpec:
     """Describe the run of the middle coating and speed of the study."""
     cases = [replace(case, law="theta") for case in coating_cases(config) if np.isfinite(case.E)]
     grid = speeds(config)

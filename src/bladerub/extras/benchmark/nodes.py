@@ -1,15 +1,15 @@
 """Speed of the time loop with more interface nodes on the tip, measured in turns."""
 
 import statistics
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from bladerub.blade.model import N_INTERFACE
 from bladerub.extras.benchmark.measure import in_contact, middle_run, production
 from bladerub.extras.verification.refinement import blade_with
+from bladerub.settings.study import Config
 
 
-def cost_by_nodes(config: Mapping[str, Any], counts: Sequence[int], rounds: int) -> dict[str, float]:
+def cost_by_nodes(config: Config, counts: Sequence[int], rounds: int) -> dict[str, float]:
     """Return the time of a simulation with contact, over that with eight nodes, by the number of nodes.
 
     Blades are those of `config`, the mesh fine enough along the chord for all.

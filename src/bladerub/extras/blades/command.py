@@ -21,6 +21,8 @@ from bladerub.io.folders import base_config, study_folder
 if TYPE_CHECKING:  # load numba, NumPy
     from bladerub.blade.built import BuiltBlade
     from bladerub.blade.model import ReducedBlade
+    from bladerub.settings.fields import Section
+    from bladerub.settings.study import Config
 
 _FEWEST_SPEEDS = 5
 _NAMES = (
@@ -74,36 +76,38 @@ def import_blade(options: argparse.Namespace) -> None:
     if not path.is_dir():
         _refuse_at_once(path)
     config = inputs.read_config(options)
-    reduction = dict(config["reduction"])
     option_values = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
     kind = "matrices" if path.is_dir() else "file"
     folder = study_folder()
     entry_path = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
-    source_settings = config["blade"].get("source", {})
+    source_settings = config.blade.plain().get("source", {})
     source_settings = {
         name: value for name, value in source_settings.items() if name not in ("file", "matrices")
     }
     entry = {kind: str(entry_path)} | asdict(Frame()) | source_settings | option_values
 
-    nominal = config["figures"].get("nominal_speed") if options.rpm is None else options.rpm
+    nominal = config.figures.nominal_speed if options.rpm is None else options.rpm
 
+    from bladerub.extras.blades import settings
+
+    config = config.replaced("blade.source", settings.Source.model_construct(**entry))
     with inputs.refused(ValueError):
-        source = origin.read(entry)
+        source = origin.read(config.blade.source)
 
     from bladerub.extras.blades.similarity import contact_scale, tip_stiffness
 
     with inputs.refused(ValueError):
         if isinstance(source, MatrixSource):
-            (figures, reduced), rows = _read_matrices(source, config, entry, nominal), _matrix_rows
+            (figures, reduced), rows = _read_matrices(source, config, nominal), _matrix_rows
         else:
-            (figures, reduced), rows = _read_mesh(source, config, entry, nominal), _mesh_rows
+            (figures, reduced), rows = _read_mesh(source, config, nominal), _mesh_rows
     scale = contact_scale(reduced)
     figures["tip_stiffness"] = tip_stiffness(reduced)
     study = configuration.read(base_config())
-    blade_settings = {} if isinstance(source, MatrixSource) else {"material": config["blade"]["material"]}
-    mesh = _changed(config["blade"]["mesh"], study["blade"]["mesh"]) if "sections" in figures else {}
+    blade_settings = {} if isinstance(source, MatrixSource) else {"material": figures["material"]}
+    mesh = _changed(config.blade.mesh, study.blade.mesh) if "sections" in figures else {}
     blade_settings |= {"mesh": mesh} if mesh else {}
-    reduction = _changed(reduction, study["reduction"])
+    reduction = _changed(config.reduction, study.reduction)
     drawn = {} if nominal is None else {"nominal_speed": nominal}
     figures["config"] = {
         "blade": {"length": reduced.length, "source": entry} | blade_settings,
@@ -120,12 +124,7 @@ def _refuse_at_once(path: Path) -> None:
             section_text.read(path)
 
 
-def _of_study(config: dict[str, Any], entry: dict[str, Any], length: float) -> dict[str, Any]:
-    """Lay what is printed for the config of the blade's study over `config`."""
-    return config | {"blade": config["blade"] | {"length": round(length, 6), "source": entry}}
-
-
-def _keep(built: "BuiltBlade", config: dict[str, Any]) -> None:
+def _keep(built: "BuiltBlade", config: "Config") -> None:
     """Keep the blade for its study, which else builds it itself."""
     from bladerub.extras.blades.kept import keep
 
@@ -133,55 +132,53 @@ def _keep(built: "BuiltBlade", config: dict[str, Any]) -> None:
         keep(built, config)
 
 
-def _changed(values: dict[str, Any], study_values: dict[str, Any]) -> dict[str, Any]:
+def _changed(group: "Section", of_study: "Section") -> dict[str, Any]:
     """Values that are not those of the study, which the printed config has to give as well."""
-    return {name: value for name, value in values.items() if value != study_values.get(name)}
+    study_values = of_study.plain()
+    return {name: value for name, value in group.plain().items() if value != study_values.get(name)}
 
 
 def _read_mesh(
-    source: Source, config: dict[str, Any], entry: dict[str, Any], nominal: float | None
+    source: Source, config: "Config", nominal: float | None
 ) -> "tuple[dict[str, Any], ReducedBlade]":
     """Import and reduce the mesh of `source`; return the figures and the reduced blade."""
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
-    config["reduction"]["accuracy_speeds"] = max(_FEWEST_SPEEDS, config["reduction"]["accuracy_speeds"])
+    speeds = max(_FEWEST_SPEEDS, config.reduction.accuracy_speeds)
 
     from bladerub.blade.build import reduce_meshed
-    from bladerub.blade.elasticity import Material
     from bladerub.blade.model import n_interface
     from bladerub.extras.blades import importing
     from bladerub.extras.blades.report import mesh_report
 
-    doubt = _take_material(source, config)
-    imported = importing.import_blade(source, config["blade"]["mesh"], n_interface(config))
+    config, doubt = _take_material(source, config.replaced("reduction.accuracy_speeds", speeds))
+    imported = importing.import_blade(source, config.blade.mesh, n_interface(config))
     if sys.stderr.isatty():  # a fine mesh takes minutes
-        nodes, speeds = len(imported.blade.mesh.mesh.points), config["reduction"]["accuracy_speeds"]
+        nodes = len(imported.blade.mesh.mesh.points)
         print(f"bladerub import: reducing a mesh of {nodes} nodes at {speeds} speeds", file=sys.stderr)
-    config = _of_study(config, entry, imported.blade.length)
+    config = config.replaced("blade.length", round(imported.blade.length, 6))
     built = reduce_meshed(imported.blade, config)
     _keep(built, config)
-    material = Material.from_config(config["blade"]["material"])
-    figures = mesh_report(source, imported, built, material, nominal) | {"material": asdict(material)}
+    material = config.blade.material
+    figures = mesh_report(source, imported, built, material, nominal) | {"material": material.plain()}
     figures["warnings"] = [*filter(None, [doubt]), *figures["warnings"]]
     return figures, built.reduced
 
 
-def _take_material(source: Source, config: dict[str, Any]) -> str | None:
-    """Put the material of a deck into `config` in place of the study's; return what else is to be said."""
+def _take_material(source: Source, config: "Config") -> "tuple[Config, str | None]":
+    """Put the material of a deck into `config` in place of the study's; return what is to be said as well."""
     from bladerub.extras.blades import deck_material
 
-    in_config = config["blade"]["material"]
+    in_config = config.blade.material
+    used = f"the material of the config is used, {_of_material(in_config.plain())}"
     try:
         in_file = None if source.is_table else deck_material.read(source.file, source.frame.unit)
     except ValueError as error:
-        return f"the material of the config is used, {_of_material(in_config)}; not that of the file: {error}"
-    if in_file is not None and in_config == configuration.read(base_config())["blade"]["material"]:
-        config["blade"] = config["blade"] | {"material": in_file}
-    elif in_file not in (None, in_config):
-        return (
-            f"the material of the config is used, {_of_material(in_config)}; the file has another, "
-            f"{_of_material(in_file)}"
-        )
-    return None
+        return config, f"{used}; not that of the file: {error}"
+    if in_file in (None, in_config):
+        return config, None
+    if in_config == configuration.read(base_config()).blade.material:
+        return config.replaced("blade.material", in_file), None
+    return config, f"{used}; the file has another, {_of_material(in_file.plain())}"
 
 
 def _of_material(material: dict[str, float]) -> str:
@@ -222,18 +219,18 @@ def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
 
 
 def _read_matrices(
-    source: MatrixSource, config: dict[str, Any], entry: dict[str, Any], nominal: float | None
+    source: MatrixSource, config: "Config", nominal: float | None
 ) -> "tuple[dict[str, Any], ReducedBlade]":
     """Import and reduce the matrices of `source`; return the figures and the reduced blade."""
     from bladerub.blade.build import reduce_given
     from bladerub.extras.blades.matrices import import_matrices
     from bladerub.extras.blades.report import matrix_report
 
-    reduction = config["reduction"]
+    reduction = config.reduction
     imported = import_matrices(
-        source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
+        source, reduction.f_omega_max, reduction.accuracy_modes, reduction.modes_per_speed
     )
-    config = _of_study(config, entry, imported.blade.layout.length)
+    config = config.replaced("blade.length", round(imported.blade.layout.length, 6))
     built = reduce_given(imported.blade, config)
     _keep(built, config)
     return matrix_report(source, imported, built, nominal), built.reduced

@@ -6,13 +6,14 @@ from pathlib import Path
 from bladerub.extras.blades import deck
 from bladerub.extras.blades.frame import FORCES
 from bladerub.extras.file_units import UNITS
+from bladerub.settings.blade import Material
 
 _YOUNG = (1e9, 1e12)  # Pa, from plastics to ceramics
 _DENSITY = (500.0, 25e3)  # kg/m³, as blade.material.density of the config
 _POISSON = (0.05, 0.49)
 
 
-def read(path: str | Path, unit: str) -> dict[str, float] | None:
+def read(path: str | Path, unit: str) -> Material | None:
     """Read the block ``blade.material`` of the config, in SI units, from the deck at `path`.
 
     `unit` of `UNITS` is that of length; force and mass go with it and the second (mm: N and t). None if the
@@ -54,7 +55,7 @@ def _materials(path: Path) -> dict[str, tuple[list[str], list[str]]]:
     return {name: materials[name] for name in used} or materials
 
 
-def _si(name: str, elastic: list[str], density: list[str], unit: str) -> dict[str, float]:
+def _si(name: str, elastic: list[str], density: list[str], unit: str) -> Material:
     numbers = []
     for keyword, lines, n in (("*ELASTIC", elastic, 2), ("*DENSITY", density, 1)):
         if not lines:
@@ -77,8 +78,5 @@ def _si(name: str, elastic: list[str], density: list[str], unit: str) -> dict[st
     ):
         if not low <= value <= high:
             raise ValueError(f"{text} with the unit {unit}; must be from {low:g} to {high:g}")
-    return {
-        "young_modulus": float(f"{young:.10g}"),
-        "poisson_ratio": poisson,
-        "density": float(f"{dense:.10g}"),
-    }
+    young, dense = float(f"{young:.10g}"), float(f"{dense:.10g}")
+    return Material(young_modulus=young, poisson_ratio=poisson, density=dense)

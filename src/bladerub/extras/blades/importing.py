@@ -1,6 +1,5 @@
 """From a mesh file or a table of sections to a blade that can be reduced."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -17,6 +16,7 @@ from bladerub.extras.blades import element_quality, mesh_file, section_blade, ti
 from bladerub.extras.blades.origin import MatrixSource, Source
 from bladerub.extras.blades.section_profile import Profile
 from bladerub.io.errors import BadInput
+from bladerub.settings.blade import Mesh
 
 LENGTH_TOLERANCE = 0.05  # of ``blade.length`` to what an import measures: its root need not be a cylinder
 _FACING = np.cos(np.pi / 4)
@@ -37,7 +37,7 @@ class Imported:
     sections: list[Profile] = field(default_factory=list, repr=False)  # of a table, hub to tip
 
 
-def import_blade(source: Source, counts: Mapping[str, int], n_interface: int = N_INTERFACE) -> Imported:
+def import_blade(source: Source, counts: Mesh, n_interface: int = N_INTERFACE) -> Imported:
     """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong.
 
     The tip gets `n_interface` interface nodes.
@@ -145,7 +145,7 @@ def _with_middles(content: mesh_file.MeshFile, nodes: np.ndarray) -> np.ndarray:
     return np.union1d(nodes, middles[np.isin(ends, nodes).all(axis=-1)])
 
 
-def _import_sections(source: Source, counts: Mapping[str, int], n_interface: int) -> Imported:
+def _import_sections(source: Source, counts: Mesh, n_interface: int) -> Imported:
     profiles = section_blade.read_profiles(source)
     shape = section_blade.SectionShape(profiles)
     mesh = BladeMesh.from_shape(shape, counts, n_interface)

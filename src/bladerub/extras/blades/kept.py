@@ -1,24 +1,23 @@
 """Imported blades that are kept for their study, in the cache of this user."""
 
-from collections.abc import Mapping
 from contextlib import suppress
-from typing import Any
 
 from bladerub.blade import built
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.cache import kept_at
 from bladerub.blade.files import is_built, paths
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
 
 
-def keep(blade: BuiltBlade, config: Mapping[str, Any]) -> None:
+def keep(blade: BuiltBlade, config: Config) -> None:
     """Keep the blade of `config` for its study; raises OSError if it cannot be written."""
     path = kept_at(config)
     if not is_built(config, path):
-        built.write(blade, provenance(config), *paths(path))
+        built.write(blade, provenance(config.plain()), *paths(path))
 
 
-def kept(config: Mapping[str, Any]) -> BuiltBlade | None:
+def kept(config: Config) -> BuiltBlade | None:
     """Read the blade of `config` as it is kept; None if it is not, or damaged. Raises as `kept_at`."""
     with suppress(OSError):
         path = kept_at(config)

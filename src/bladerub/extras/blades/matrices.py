@@ -1,10 +1,9 @@
 """From mass and stiffness of another program to a blade that can be reduced."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -22,6 +21,7 @@ from bladerub.extras.blades.importing import LENGTH_TOLERANCE, check_length, mea
 from bladerub.extras.blades.matrix_folder import FIT, MASS, NODES
 from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource
 from bladerub.io.errors import BadInput
+from bladerub.settings.study import Config
 
 _PENALTY = 1e4  # diagonal entry over the median, from which on a coordinate is held
 _STEPS = 60  # of Lanczos's method
@@ -102,12 +102,12 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
     )
 
 
-def of_length(config: Mapping[str, Any]) -> DiscreteBlade:
+def of_length(config: Config) -> DiscreteBlade:
     """Import the matrices that `config` names; BadInput as `import_matrices`, or if it has another length."""
-    length, reduction = config["blade"]["length"], config["reduction"]
-    source = origin.read(config["blade"]["source"])
+    length, reduction = config.blade.length, config.reduction
+    source = origin.read(config.blade.source)
     imported = import_matrices(
-        source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
+        source, reduction.f_omega_max, reduction.accuracy_modes, reduction.modes_per_speed
     )
     layout = imported.blade.layout
     tip_radius = np.hypot(*layout.mesh.mesh.points[layout.mesh.tip, 1:].T).mean()

@@ -1,24 +1,27 @@
 """A blade from a folder of matrices, ``blade.source.matrices`` (`bladerub.blade.source`)."""
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from bladerub.config.errors import format_value
 from bladerub.extras.blades import origin
 from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.settings import Source
 from bladerub.io.checksum import file_checksum
+from bladerub.io.errors import format_value
+from bladerub.settings.blade import Blade
+from bladerub.settings.study import Config
 
 if TYPE_CHECKING:  # imports the solver, which a plan does without
     from bladerub.blade.built import BuiltBlade
 
 
-def problems(config: Mapping[str, Any]) -> Iterator[str]:
+def problems(config: Config) -> Iterator[str]:
     """Yield a line for each thing in `config` that cannot be."""
     from bladerub.extras.blades import matrix_folder
 
-    source = config["blade"]["source"]
+    source = config.blade.source
     try:
         folder = origin.read(source).folder
     except ValueError as error:
@@ -27,31 +30,30 @@ def problems(config: Mapping[str, Any]) -> Iterator[str]:
     try:
         matrix_folder.files(folder)
     except ValueError as error:
-        yield f"blade.source.matrices = {format_value(source['matrices'])}: {error} ({folder})"
-    count = config["reduction"].get("fit_speeds", 3)
-    if count != 3:
+        yield f"blade.source.matrices = {format_value(source.matrices)}: {error} ({folder})"
+    if (count := config.reduction.fit_speeds) not in (None, 3):
         yield f"reduction.fit_speeds = {count}: must be 3 with blade.source.matrices"
 
 
-def recipe(blade: Mapping[str, Any]) -> dict[str, Any]:
+def recipe(blade: Blade) -> dict[str, Any]:
     """Reduce the block ``blade`` to what determines the blade, with the content of its files."""
     from bladerub.extras.blades import matrix_folder
 
-    paths = matrix_folder.files(origin.read(blade["source"]).folder)
+    paths = matrix_folder.files(origin.read(blade.source).folder)
     content = {name: file_checksum(path) for name, path in paths.items()}
-    settings = asdict(Frame()) | blade["source"]  # what a config leaves out is not another blade
-    return {"length": blade["length"], "source": settings | {"matrices": content}}
+    settings = asdict(Frame()) | blade.source.plain()  # what a config leaves out is not another blade
+    return {"length": blade.length, "source": settings | {"matrices": content}}
 
 
-def files(source: Mapping[str, Any]) -> list[str]:
+def files(source: Source) -> list[str]:
     """List the files of the block ``source``; ValueError if one is missing."""
     from bladerub.extras.blades import matrix_folder
 
     paths = matrix_folder.files(origin.read(source).folder)
-    return [os.path.join(source["matrices"], path.name) for path in paths.values()]
+    return [os.path.join(source.matrices, path.name) for path in paths.values()]
 
 
-def build(config: Mapping[str, Any]) -> "BuiltBlade":
+def build(config: Config) -> "BuiltBlade":
     """Build the blade, or read it where ``bladerub import`` kept it; BadInput if it is not of its length."""
     from bladerub.blade.build import reduce_given
     from bladerub.extras.blades.kept import kept
@@ -60,7 +62,7 @@ def build(config: Mapping[str, Any]) -> "BuiltBlade":
     return kept(config) or reduce_given(of_length(config), config)
 
 
-def frequency_at_rest(config: Mapping[str, Any]) -> float:
+def frequency_at_rest(config: Config) -> float:
     """Compute the first frequency at rest, Hz; BadInput as `build`."""
     from bladerub.extras.blades.matrices import of_length
 

@@ -1,13 +1,15 @@
 """Where a blade comes from: the ``blade.source`` block of the config."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bladerub.extras.blades.frame import Frame
 from bladerub.io.folders import study_folder
 from bladerub.io.optional import package
+
+if TYPE_CHECKING:
+    from bladerub.extras.blades import settings
 
 MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
 """N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
@@ -57,23 +59,24 @@ class MatrixSource:
     tip_cone: float | None = None  # as in `Source`
 
 
-def read(source: Mapping[str, Any]) -> Source | MatrixSource:
+def read(source: "settings.Source") -> Source | MatrixSource:
     """Read the ``blade.source`` block of the config, whose file or folder is relative to the study.
 
     Raises a ValueError that begins with the key if neither ``file`` nor ``matrices`` is there, or keys do not
     go together.
     """
-    path_key = next((name for name in ("matrices", "file") if name in source), None)
+    others = source.plain()
+    path_key = next((name for name in ("matrices", "file") if name in others), None)
     if path_key is None:
         raise ValueError("file: missing; must be given, or matrices in its place")
     kind = MatrixSource if path_key == "matrices" else Source
-    others = {name: source[name] for name in source if name != path_key}
+    path = study_folder() / others.pop(path_key)
     frame = {entry.name: others.pop(entry.name) for entry in fields(Frame) if entry.name in others}
     names = [entry.name for entry in fields(kind)]
     for key in others:
         if key not in names:
-            raise ValueError(f"{key} = {source[key]}: must not be given beside {path_key}")
-    return kind(study_folder() / source[path_key], Frame(**frame), **others)
+            raise ValueError(f"{key} = {others[key]}: must not be given beside {path_key}")
+    return kind(path, Frame(**frame), **others)
 
 
 def conversion(path: Path, suffix: str) -> str:

@@ -10,7 +10,6 @@ from scipy.sparse.csgraph import dijkstra
 
 from bladerub.blade.accuracy import doubts, errors_by_mode
 from bladerub.blade.built import BuiltBlade
-from bladerub.blade.elasticity import Material
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
@@ -19,6 +18,7 @@ from bladerub.extras.blades.importing import Imported
 from bladerub.extras.blades.matrices import ImportedMatrices
 from bladerub.extras.blades.origin import MatrixSource, Source
 from bladerub.extras.blades.section_profile import EDGE_SHARE
+from bladerub.settings.blade import Material
 
 ORDERS = range(1, 13)  # engine orders whose crossings with the first frequency are stated
 FREQUENCIES = (5.0, 20e3)  # Hz, of the first mode

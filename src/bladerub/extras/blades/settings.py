@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from bladerub.config.fields import Degree, Form, Number, Omitted, Section, Unit
+from bladerub.settings.fields import Degree, Form, Number, Omitted, Section, Unit
 
 _Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 _NodeSet = Annotated[

@@ -1,16 +1,15 @@
 """A casing whose gap was measured around it, as a table (`bladerub.study.casings`)."""
 
 import math
-from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.extras import cells
+from bladerub.extras.casings.settings import MeasuredCasing
 from bladerub.extras.file_units import ANGLE_UNITS, UNITS
 from bladerub.io.folders import study_folder
 
@@ -23,35 +22,34 @@ _HIGHEST_HARMONIC = 100
 _MARKED = 0.1  # of the largest harmonic: those of a measured shape from there on count as nodal diameters
 
 
-def casing_spec(name: str, entry: Mapping[str, Any], length_scale: float) -> Casing:
+def casing_spec(name: str, entry: MeasuredCasing, length_scale: float) -> Casing:
     """Describe an entry of ``casings`` in SI units; the measured gap is what it is.
 
     With an ``interference`` beside the table, it is shifted to that. Raises `ValueError`, which begins with
     the key, if the table cannot be read or is none.
     """
-    table = entry["table"]
-    path = study_folder() / table["file"]
-    units = UNITS[table.get("unit", "m")], ANGLE_UNITS[table.get("angle_unit", "deg")]
+    table, interference = entry.table, entry.interference
+    path = study_folder() / table.file
+    units = UNITS[table.unit or "m"], ANGLE_UNITS[table.angle_unit or "deg"]
     try:
         version = path.stat().st_mtime_ns if path.is_file() else 0
         angle, gap = _measured(path, version, *units)
     except ValueError as error:
-        raise ValueError(f"table.file = {table['file']}: {error}") from error
+        raise ValueError(f"table.file = {table.file}: {error}") from error
     amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
     inward = (np.max(gap) - gap) / amplitude
-    interference = entry.get("interference")
     return Casing(
         name=name,
         nodal_diameters=(),
         weights=(),
         amplitude=amplitude,
         interference=-lowest if interference is None else float(interference * length_scale),
-        start_angle=math.radians(entry["start_angle"]),
+        start_angle=math.radians(entry.start_angle),
         measured=tuple(zip(angle.tolist(), inward.tolist(), strict=True)),
     )
 
 
-def nodal_diameters(entry: Mapping[str, Any]) -> list[int]:
+def nodal_diameters(entry: MeasuredCasing) -> list[int]:
     """List the harmonics of the shape of at least a tenth of the largest."""
     angle = np.linspace(0, 2 * np.pi, 4 * _HIGHEST_HARMONIC, endpoint=False)
     size = np.abs(np.fft.rfft(shape(casing_spec("", entry, 1.0), angle)))[1 : _HIGHEST_HARMONIC + 1]

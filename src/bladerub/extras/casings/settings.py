@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from bladerub.config.fields import Form, Omitted, Section
-from bladerub.config.models.contact import AnyCasing, CasingInterference
+from bladerub.settings.contact import AnyCasing, CasingInterference
+from bladerub.settings.fields import Form, Omitted, Section
 
 
 class GapTable(Section):

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 
-from bladerub.config.checks import Config, casing_problems, reads
+from bladerub.config.checks import casing_problems, reads
+from bladerub.settings.study import Config
 
 
 @reads("casings", "contact", "blade", "chart")
 def problems(config: Config) -> Iterator[str]:
     """Yield what is wrong with the casing of the chart, whose coatings have its interference."""
-    yield from casing_problems(config, config["chart"]["casing"])
+    yield from casing_problems(config, config.chart.casing)

@@ -1,7 +1,6 @@
 """How well the search for maxima does, tried on the maps of the study, which has every speed."""
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
@@ -9,16 +8,17 @@ import pandas as pd
 from bladerub.extras.chart.plan import chart_speeds
 from bladerub.extras.chart.search import next_speeds, sought
 from bladerub.extras.chart.table import COATING
+from bladerub.settings.study import Config
 from bladerub.study.maps import CoatingMap
 
 
-def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
+def table(config: Config, maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Compare what the search finds on each coating of the study with what is there.
 
     A row per coating and ``quantity`` (each Y_k, and peak): ``found`` at ``f_found`` by the search,
     ``greatest`` at ``f_greatest`` among all speeds, both in m, and ``missed = 1 - found / greatest``.
     """
-    speeds, share = chart_speeds(config), config["chart"]["speeds"]["refine_above"]
+    speeds, share = chart_speeds(config), config.chart.speeds.refine_above
     rows = []
     for coating in maps:
         curves = sought(config, coating, np.nanmax(coating.revolution_peak, axis=1))

@@ -1,10 +1,9 @@
 """Which coating to choose: limits of a safe one, which to recommend, and those that no other betters."""
 
-from collections.abc import Mapping
-
 import numpy as np
 import pandas as pd
 
+from bladerub.extras.chart.settings import Limits
 from bladerub.extras.chart.table import COATING
 
 LIMITED = {
@@ -27,12 +26,12 @@ CHOICE = [
 """Columns of ``chart_choice.csv``."""
 
 
-def broken_limits(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
+def broken_limits(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
     """Return for each row of the chart which of the limits it breaks, a column of bool for each."""
-    return pd.DataFrame({name: chart[LIMITED[name]] > limit for name, limit in limits.items()})
+    return pd.DataFrame({name: chart[LIMITED[name]] > limit for name, limit in limits if limit is not None})
 
 
-def pareto(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
+def pareto(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
     """List the coatings to which no other of the same θ is better in both displacement and worn volume.
 
     Their rows of the chart, by ascending displacement, and ``safe``: whether all limits are kept.
@@ -46,7 +45,7 @@ def pareto(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
     return pd.concat(fronts, ignore_index=True)
 
 
-def recommended(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
+def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
     """Recommend for each θ the coating with the lowest displacement of those that break the fewest limits.
 
     Columns of `CHOICE`: how sure that is shows in the coatings next to it on the chart, eight or fewer. If

@@ -5,7 +5,6 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -22,6 +21,7 @@ from bladerub.extras.chart.point import PointRow
 from bladerub.extras.chart.search import compute, compute_together, search
 from bladerub.io import lock, sources
 from bladerub.io.checksum import file_checksum
+from bladerub.settings.study import Config
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.solver import each_done, solver_of
@@ -36,7 +36,7 @@ def chart_digest() -> str:
     return sources.source_digest(sources.PACKAGE / name for name in measuring + searching)
 
 
-def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds) -> str:
+def determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> str:
     """Digest all that determines the file of the point of a coating but the blade.
 
     Other points, and the coatings of the study, have no part in it.
@@ -46,18 +46,18 @@ def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpee
             "runs": run_determinants(config, case, speeds),
             "uniform": np.flatnonzero(speeds.uniform).tolist(),
             "coarse": np.flatnonzero(speeds.coarse).tolist(),
-            "refine_above": float(config["chart"]["speeds"]["refine_above"]),
-            "window": [float(end) for end in config["analysis"]["peaks"]["speed_window"]],
+            "refine_above": config.chart.speeds.refine_above,
+            "window": config.analysis.peaks.speed_window,
         }
     )
 
 
-def run_determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds) -> str:
+def run_determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> str:
     """Digest what determines the runs of a coating, and what is kept of them, but the blade.
 
     The speeds that the search chooses have no part in it.
     """
-    analysis = config["analysis"]
+    analysis = config.analysis
     return cache.digest(
         solver_of(config).determinants()
         | law_digest(element_law(config))
@@ -65,24 +65,24 @@ def run_determinants(config: Mapping[str, Any], case: CoatingCase, speeds: Chart
             "spec": asdict(run_spec(config, case, f_omega=0.0)),
             "f_omega": speeds.f_omega.tolist(),
             "orders": chart_orders(config),
-            "order_halfwidth": float(analysis["peaks"]["order_halfwidth"]),
-            "spectrum_revolutions": float(analysis["spectrum_revolutions"]),
-            "lobe_prominence": float(analysis["lobe_prominence"]),
-            "divergence": {name: float(value) for name, value in analysis["divergence"].items()},
+            "order_halfwidth": analysis.peaks.order_halfwidth,
+            "spectrum_revolutions": float(analysis.spectrum_revolutions),
+            "lobe_prominence": analysis.lobe_prominence,
+            "divergence": {name: float(value) for name, value in analysis.divergence.plain().items()},
             "solver": solver_digest(),
             "chart": chart_digest(),
         }
     )
 
 
-def plan_column(config: Mapping[str, Any], cases: Sequence[CoatingCase]) -> dict[CoatingCase, str]:
+def plan_column(config: Config, cases: Sequence[CoatingCase]) -> dict[CoatingCase, str]:
     """Plan the points of a column: the `determinants` of each."""
     speeds = chart_speeds(config)
     return {case: determinants(config, case, speeds) for case in cases}
 
 
 def compute_missing(
-    config: Mapping[str, Any],
+    config: Config,
     plan: Mapping[CoatingCase, str],
     blade: ReducedBlade,
     folder: str | Path,

@@ -1,8 +1,7 @@
 """What goes with the height of a peak: stiffness of the contact, energy dissipated in a cycle, worn lobes."""
 
 import itertools
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
@@ -10,6 +9,7 @@ import pandas as pd
 from bladerub.extras.chart.grid import chart_orders
 from bladerub.extras.chart.point import ChartPoint
 from bladerub.extras.chart.table import COATING
+from bladerub.settings.study import Config
 from bladerub.study.peaks import crossing_speed, row
 
 LOSSES = ("wear", "sliding", "damping")
@@ -27,7 +27,7 @@ def contact_stiffness(E: float, K: float) -> float:
     return E * K / (E + K)
 
 
-def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFrame:
+def table(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
     """Look at the run at the peak of each engine order.
 
     A row per point and order: `COATING`, ``order``, ``E_T``, ``f_crossing``, ``f_peak``, ``amplitude`` (m),
@@ -36,7 +36,7 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
     """
     rows = []
     for point, order in itertools.product(points, chart_orders(config)):
-        about = row(point, order, config["analysis"]["peaks"]) | {
+        about = row(point, order, config.analysis.peaks) | {
             "E_T": contact_stiffness(point.case.E, point.case.K),
             "f_crossing": crossing_speed(point, order),
         }

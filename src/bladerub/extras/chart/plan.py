@@ -14,7 +14,7 @@ blade of another cost, the chart takes longer or shorter, but is the same.
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from bladerub.extras.job_times import (
     SECONDS_PER_REVOLUTION,
 )
 from bladerub.io.errors import BadInput
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.workflow.cores import run_cost
 
@@ -49,14 +50,13 @@ class Plan(NamedTuple):
     multiple: int  # of the steps of ``chart.speeds``
 
 
-def plan(config: Mapping[str, Any]) -> Plan:
+def plan(config: Config) -> Plan:
     """Choose the part of the chart that the config grants minutes for.
 
     Raises `BadInput`, naming the key, if they are too few for the smallest chart.
     """
-    chart = config["chart"]
-    E, K = (list(map(float, chart[name])) for name in ("E", "K"))
-    minutes = chart.get("minutes", math.inf)
+    E, K = config.chart.E, config.chart.K
+    minutes = config.chart.minutes or math.inf
     for multiple in (1, _FARTHER):
         whole = Plan(E, K, multiple)
         if minutes == math.inf or expected_minutes(config, whole) <= minutes:
@@ -73,44 +73,42 @@ def plan(config: Mapping[str, Any]) -> Plan:
     return chosen
 
 
-def columns(config: Mapping[str, Any]) -> dict[str, list[CoatingCase]]:
+def columns(config: Config) -> dict[str, list[CoatingCase]]:
     """List the coatings of each column, all K at one θ and E, by the name of the column."""
-    casing, planned = config["chart"]["casing"], plan(config)
+    casing, planned = config.chart.casing, plan(config)
     return {
-        f"{casing}_E{E:g}_theta{theta:g}": [CoatingCase(casing, E, K, float(theta)) for K in planned.K]
-        for theta in config["chart"]["theta"]
+        f"{casing}_E{E:g}_theta{theta:g}": [CoatingCase(casing, E, K, theta) for K in planned.K]
+        for theta in config.chart.theta
         for E in planned.E
     }
 
 
-def chart_speeds(config: Mapping[str, Any]) -> ChartSpeeds:
+def chart_speeds(config: Config) -> ChartSpeeds:
     """Choose the speeds of every point."""
     return nearest_speeds(config, plan(config).multiple)
 
 
-def expected_minutes(config: Mapping[str, Any], plan: Plan) -> float:
+def expected_minutes(config: Config, plan: Plan) -> float:
     """Forecast the minutes that a plan takes on ``chart.cores``, from the first job to the last figure."""
-    chart, speeds = config["chart"], nearest_speeds(config, plan.multiple)
-    halvings = max(0.0, math.log2(plan.multiple * chart["speeds"]["step"] / config["speeds"]["step"]))
+    chart, speeds = config.chart, nearest_speeds(config, plan.multiple)
+    halvings = max(0.0, math.log2(plan.multiple * chart.speeds.step / config.speeds.step))
     runs = speeds.coarse.sum() + RUNS_PER_HALVING * halvings
-    longer = GROWING * speeds.uniform.sum() * config["analysis"]["divergence"]["confirmation_revolutions"]
-    revolutions = runs * config["solver"]["revolutions"] + longer
+    longer = GROWING * speeds.uniform.sum() * config.analysis.divergence.confirmation_revolutions
+    revolutions = runs * config.solver.revolutions + longer
     weights = [run_cost(E, speeds.f_omega[speeds.coarse]).mean() for E in plan.E]
-    n_columns = len(chart["theta"]) * len(plan.E)
-    simulated = len(chart["theta"]) * len(plan.K) * sum(weights) * revolutions * SECONDS_PER_REVOLUTION
+    n_columns = len(chart.theta) * len(plan.E)
+    simulated = len(chart.theta) * len(plan.K) * sum(weights) * revolutions * SECONDS_PER_REVOLUTION
     in_turn = max(SECONDS_AT_FIRST.values()) + _JOBS_IN_TURN * SECONDS_PER_JOB
     shared = simulated + (n_columns + _JOBS) * SECONDS_PER_JOB
-    return (in_turn + shared / chart.get("cores", CORES)) / 60
+    return (in_turn + shared / (chart.cores or CORES)) / 60
 
 
-def in_words(config: Mapping[str, Any]) -> str:
+def in_words(config: Config) -> str:
     """Say in a line which part of the chart is planned, and the minutes that are forecast for it."""
-    chart, planned = config["chart"], plan(config)
-    part, all_coatings = (
-        len(chart["theta"]) * len(moduli["E"]) * len(moduli["K"]) for moduli in (planned._asdict(), chart)
-    )
+    chart, planned = config.chart, plan(config)
+    part, all_coatings = (len(chart.theta) * len(moduli.E) * len(moduli.K) for moduli in (planned, chart))
     farther = "" if planned.multiple == 1 else f", at speeds {planned.multiple} times as far apart"
-    minutes, cores = expected_minutes(config, planned), chart.get("cores", CORES)
+    minutes, cores = expected_minutes(config, planned), chart.cores or CORES
     return (
         f"chart: {part:,} of {all_coatings:,} coatings{farther}; about {minutes:.1f} min on {cores} cores, "
         "were nothing computed yet"

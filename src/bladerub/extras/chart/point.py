@@ -1,9 +1,8 @@
 """One point of the chart, a coating: what is kept of the runs of one coating, and its file."""
 
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from bladerub.io import checksum, hdf5
 from bladerub.io.errors import DamagedFile, is_refused
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ListedFile
 
@@ -78,7 +78,7 @@ class ChartPoint:
         return np.isfinite(self.measures["peak"])
 
 
-def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: Mapping[str, Any]) -> str:
+def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: Config) -> str:
     """Write `point` to `path` under its `key`, whole or not at all; return the checksum of the file.
 
     `runs_key` is that of its runs, whichever of their speeds the search chose.
@@ -90,9 +90,8 @@ def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: 
         name: Variable(dims.get(name, ("f_omega",)), values[name], unit, long_name)
         for name, (unit, long_name) in described.items()
     }
-    return hdf5.write(
-        path, variables, asdict(point.case) | {"cell_key": key, RUNS_KEY: runs_key}, provenance(config)
-    )
+    about = asdict(point.case) | {"cell_key": key, RUNS_KEY: runs_key}
+    return hdf5.write(path, variables, about, provenance(config.plain()))
 
 
 def read(path: str | Path) -> ChartPoint:

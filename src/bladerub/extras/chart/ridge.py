@@ -6,7 +6,7 @@
    chart would show if it had no finer speeds.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -16,6 +16,7 @@ import pandas as pd
 from bladerub.extras.chart.explanation import contact_stiffness
 from bladerub.extras.chart.grid import chart_orders
 from bladerub.extras.chart.point import ChartPoint
+from bladerub.settings.study import Config
 from bladerub.study.peaks import amplitude_in_window, maximum
 
 MULTIPLES = (1, 2, 4)
@@ -35,7 +36,7 @@ SUMMARY = [
 """Columns of ``chart_ridge_summary.csv``."""
 
 
-def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFrame:
+def table(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
     """Find the ridges.
 
     A row with `COLUMNS`, m, for each point on a ridge; NaN for the neighbours if none of them has a peak.
@@ -44,20 +45,20 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
     for multiple in MULTIPLES:
         for surface, peaks in _peaks(config, points, multiple).groupby(_SURFACE):
             about = dict(zip(_SURFACE, surface, strict=True))
-            rows += [about | row for row in _ridge(peaks, config["speeds"]["step"] * multiple)]
+            rows += [about | row for row in _ridge(peaks, config.speeds.step * multiple)]
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
-def _peaks(config: Mapping[str, Any], points: list[ChartPoint], multiple: int) -> pd.DataFrame:
+def _peaks(config: Config, points: list[ChartPoint], multiple: int) -> pd.DataFrame:
     """Y_k of each point from its runs at speeds `multiple` steps of the study apart; NaN without any."""
     rows = []
     for point in points:
-        steps = (point.f_omega - config["chart"]["speeds"]["start"]) / (config["speeds"]["step"] * multiple)
+        steps = (point.f_omega - config.chart.speeds.start) / (config.speeds.step * multiple)
         even = (np.abs(steps - np.rint(steps)) < 1e-6) | (multiple == 1)
         subset = replace(point, spectrum_amplitude=np.where(even[:, None], point.spectrum_amplitude, np.nan))
         case = point.case
         for order in chart_orders(config):
-            peak = maximum(subset, amplitude_in_window(subset, order, config["analysis"]["peaks"]))
+            peak = maximum(subset, amplitude_in_window(subset, order, config.analysis.peaks))
             rows.append((case.casing, case.theta, order, case.E, case.K, peak.f_omega, peak.amplitude))
     return pd.DataFrame(rows, columns=[*_SURFACE, "E", "K", "f_peak", "amplitude"])
 

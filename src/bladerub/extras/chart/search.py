@@ -15,7 +15,7 @@
 
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,6 +26,8 @@ from bladerub.contact.spec import RunSpec
 from bladerub.contact.strips import element_area
 from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
 from bladerub.extras.chart.point import MEASURES, ChartPoint
+from bladerub.settings.analysis import Analysis
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
 from bladerub.study.peaks import Response, amplitude_in_window
@@ -37,7 +39,7 @@ Search = Generator[list[RunSpec], list[RunResult], ChartPoint]
 
 
 def compute(
-    config: Mapping[str, Any],
+    config: Config,
     case: CoatingCase,
     blade: ReducedBlade,
     speeds: ChartSpeeds,
@@ -77,7 +79,7 @@ def compute_together(
 
 
 def search(
-    config: Mapping[str, Any],
+    config: Config,
     case: CoatingCase,
     blade: ReducedBlade,
     speeds: ChartSpeeds,
@@ -95,17 +97,17 @@ def search(
         uniform=speeds.uniform,
         measures={name: np.full(n, np.nan) for name in MEASURES},
     )
-    share, pending = config["chart"]["speeds"]["refine_above"], np.flatnonzero(speeds.coarse).tolist()
+    share, pending = config.chart.speeds.refine_above, np.flatnonzero(speeds.coarse).tolist()
     ends: list[_End] = []
     while pending:
         to_run = [index for index in pending if not _taken_over(point, earlier, index)]
         specs = [run_spec(config, case, point.f_omega[index]) for index in to_run]
         for index, spec, result in zip(to_run, specs, (yield specs), strict=True):
-            _enter(config["analysis"], blade, point, index, spec, result)
+            _enter(config.analysis, blade, point, index, spec, result)
             if point.uniform[index]:
                 ends.append(_End(index, spec, result.revolution_amplitude, result.status))
         pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
-    yield from _judge(config["analysis"], point, ends)
+    yield from _judge(config.analysis, point, ends)
     return point
 
 
@@ -121,12 +123,12 @@ def _taken_over(point: ChartPoint, earlier: ChartPoint | None, index: int) -> bo
     return True
 
 
-def sought(config: Mapping[str, Any], response: Response, peak: np.ndarray) -> dict[str, np.ndarray]:
+def sought(config: Config, response: Response, peak: np.ndarray) -> dict[str, np.ndarray]:
     """Curves (n,) over speed whose maxima are sought, by column of the chart; NaN where not sought or run.
 
     `peak` (n,) is the greatest displacement at each speed, m.
     """
-    settings = config["analysis"]["peaks"]
+    settings = config.analysis.peaks
     orders = chart_orders(config)
     amplitudes = {f"Y{order}": amplitude_in_window(response, order, settings) for order in orders}
     return amplitudes | {"peak": peak}
@@ -155,7 +157,7 @@ def next_speeds(computed: np.ndarray, curves: Iterable[np.ndarray], share: float
 
 
 def _enter(
-    analysis: Mapping[str, Any],
+    analysis: Analysis,
     blade: ReducedBlade,
     point: ChartPoint,
     index: int,
@@ -168,27 +170,23 @@ def _enter(
         point.measures[name][index] = value
 
 
-def _amplitudes(
-    analysis: Mapping[str, Any], orders: np.ndarray, spec: RunSpec, result: RunResult
-) -> list[float]:
+def _amplitudes(analysis: Analysis, orders: np.ndarray, spec: RunSpec, result: RunResult) -> list[float]:
     """Largest amplitude on each of the engine orders, m."""
-    halfwidth = analysis["peaks"]["order_halfwidth"]
+    halfwidth = analysis.peaks.order_halfwidth
     order, amplitude = order_spectrum(
-        result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], orders.max() + 1
+        result.radial_displacement, spec.revolutions, analysis.spectrum_revolutions, orders.max() + 1
     )
     return [
         float(amplitude[np.abs(order - engine_order) <= halfwidth + 1e-9].max()) for engine_order in orders
     ]
 
 
-def _measured(
-    analysis: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult
-) -> dict[str, float]:
+def _measured(analysis: Analysis, blade: ReducedBlade, spec: RunSpec, result: RunResult) -> dict[str, float]:
     return {
         "peak": float(np.nanmax(result.revolution_peak)),
         "worn_volume": float(result.wear.sum(axis=1) @ element_area(blade, spec)),
         "deepest_wear": float(result.wear.max()),
-        "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
+        "lobes": lobes(result.angle, result.wear, analysis.lobe_prominence),
         "unbounded": float(result.status == "unbounded"),
         "revolutions": result.n_steps * result.time_step * spec.f_omega * blade.f1_hz,
         **{f"energy_{name}": getattr(result.energy, name) for name in ("damping", "wear", "sliding")},
@@ -205,10 +203,10 @@ class _End(NamedTuple):
 
 
 def _judge(
-    analysis: Mapping[str, Any], point: ChartPoint, ends: Sequence[_End]
+    analysis: Analysis, point: ChartPoint, ends: Sequence[_End]
 ) -> Generator[list[RunSpec], list[RunResult], None]:
     """Judge whether runs diverge, and put it into `point`; ask for the longer runs of those that grow."""
-    settings = analysis["divergence"]
+    settings = analysis.divergence
     growing = [end for end in ends if needs_confirmation(end.amplitude, end.status, settings)]
     confirmations = yield [confirmation_spec(end.spec, settings) for end in growing]
     longer = {

@@ -4,9 +4,7 @@ No run of the chart keeps its motion. The runs with the greatest amplitude on ea
 greatest displacement are made again, two or three of some fifty; the stress at another speed may be higher.
 """
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 from threadpoolctl import threadpool_limits
@@ -16,6 +14,7 @@ from bladerub.extras.chart.grid import chart_orders
 from bladerub.extras.chart.table import COATING
 from bladerub.extras.stress.run import BladeStress
 from bladerub.io import tables
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 
 COLUMNS = [*COATING, "alternating", "f_alternating"]
@@ -23,16 +22,14 @@ COLUMNS = [*COATING, "alternating", "f_alternating"]
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # the products are small
-def table(
-    mesh: str | Path, blade: ReducedBlade, config: Mapping[str, Any], chart: pd.DataFrame
-) -> pd.DataFrame:
+def table(mesh: str | Path, blade: ReducedBlade, config: Config, chart: pd.DataFrame) -> pd.DataFrame:
     """Find the largest alternating stress of each row of ``chart.csv`` and the speed of it.
 
     `mesh` is the ``mesh.h5`` of the blade. A run that completes no revolution has no stress. Raises
     `BadInput` where the blade is of matrices alone.
     """
     stress, rows = BladeStress(mesh, blade), []
-    last = config["analysis"]["spectrum_revolutions"]
+    last = config.analysis.spectrum_revolutions
     speed_columns = ["f_at_peak", *(f"f{order}" for order in chart_orders(config))]
     for point in chart.to_dict("records"):
         case = CoatingCase(*(point[name] for name in COATING))

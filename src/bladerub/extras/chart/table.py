@@ -1,8 +1,7 @@
 """The chart as a table, a row for each point."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,6 +10,7 @@ from bladerub.extras.chart import point as files
 from bladerub.extras.chart.grid import chart_orders
 from bladerub.extras.chart.point import ChartPoint, PointRow
 from bladerub.io.errors import DamagedFile
+from bladerub.settings.study import Config
 from bladerub.study.manifest import listed_files
 from bladerub.study.peaks import peak
 
@@ -38,7 +38,7 @@ def read_points(manifests: Iterable[str | Path]) -> Iterator[ChartPoint]:
             yield files.read(file.path)
 
 
-def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFrame:
+def table(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
     """Sum up every point.
 
     A row per point: `COATING`, Y_k in m and f_k for each engine order of the chart, the greatest displacement
@@ -49,7 +49,7 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
     for point in points:
         measures, row = point.measures, {name: getattr(point.case, name) for name in COATING}
         for order in orders:
-            order_peak = peak(point, order, config["analysis"]["peaks"])
+            order_peak = peak(point, order, config.analysis.peaks)
             row |= {f"f{order}": order_peak.f_omega, f"Y{order}": order_peak.amplitude}
         highest = int(np.nanargmax(measures["peak"]))
         row |= {"peak": measures["peak"][highest], "f_at_peak": point.f_omega[highest]}

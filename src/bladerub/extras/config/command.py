@@ -5,8 +5,8 @@ import sys
 from typing import Any
 
 from bladerub.config.read import read_with_notes
-from bladerub.config.units import pressure_in_words, speeds_in_words
 from bladerub.io.folders import base_config
+from bladerub.settings.units import pressure_in_words, speeds_in_words
 
 
 def add_to(commands: Any) -> None:
@@ -42,9 +42,10 @@ def check(options: argparse.Namespace) -> None:
     n_coatings, n_speeds = len(coating_cases(config)), len(speeds(config))
     print(
         f"valid: {n_coatings} coatings at {n_speeds} speeds are {n_coatings * n_speeds:,} runs, "
-        f"in {config['results']}"
+        f"in {config.results}"
     )
     print(f"speeds: {speeds_in_words(speeds(config), kept_frequency(config))}")
     print(f"E = 1 and K = 1: {pressure_in_words(modulus_unit(config))}")
-    law = config["contact"].get("law", {}).get("file")
-    print(f"executes {law}, the law of the coatings: read it as any program" if law else "executes no file")
+    law = config.contact.plugged("law")
+    file = law and law.file
+    print(f"executes {file}, the law of the coatings: read it as any program" if file else "executes no file")

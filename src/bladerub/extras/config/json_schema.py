@@ -5,8 +5,8 @@ import re
 from typing import Any
 
 from bladerub.config.keys import NUMBERS, Key, key_of
-from bladerub.config.models.study import whole
-from bladerub.config.units import NUMBER, UNITS
+from bladerub.settings.study import whole
+from bladerub.settings.units import NUMBER, UNITS
 
 Rule = dict[str, Any]
 

@@ -1,9 +1,8 @@
 """What is said of a plan: how many runs of the study are to be computed, and about how long its jobs take."""
 
 import atexit
-import copy
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ from bladerub.extras.job_times import (
     SECONDS_PER_REVOLUTION,
 )
 from bladerub.io.errors import message_for
+from bladerub.settings.study import Config
 from bladerub.study import inventory
 from bladerub.study.grid import coating_cases
 from bladerub.study.plan import CoatingPlan, coating_plan
@@ -21,7 +21,7 @@ from bladerub.workflow.cores import costs_of
 
 
 def announce(
-    config: Mapping[str, Any],
+    config: Config,
     workflow: Any,
     cores: int | None = None,
     plan_of: Callable[[str], CoatingPlan] | None = None,
@@ -38,15 +38,15 @@ def announce(
     print(f"bladerub: {coatings(config)}\nbladerub: {line}", file=sys.stderr)
 
 
-def announce_at_exit(config: Mapping[str, Any], workflow: Any) -> None:
+def announce_at_exit(config: Config, workflow: Any) -> None:
     """Print the `forecast` after the jobs that a dry run lists."""
-    atexit.register(announce, copy.deepcopy(dict(config)), workflow)
+    atexit.register(announce, config, workflow)
 
 
 _MOST_NAMED = 8
 
 
-def coatings(config: Mapping[str, Any]) -> str:
+def coatings(config: Config) -> str:
     """Name the coatings of the study in a line, so that a list such as ``[0,5]`` shows as two values."""
     names = [case.name for case in coating_cases(config)]
     excess = len(names) - _MOST_NAMED
@@ -54,7 +54,7 @@ def coatings(config: Mapping[str, Any]) -> str:
 
 
 def forecast(
-    config: Mapping[str, Any],
+    config: Config,
     jobs: Iterable[tuple[str, str | None]],
     cores: int | None = None,
     plan_of: Callable[[str], CoatingPlan] | None = None,
@@ -65,7 +65,7 @@ def forecast(
     of which Snakemake tells a dry run nothing, the time is that of one. `plan_of` gives the plan of a coating
     by its name, where the caller has it already.
     """
-    results, jobs = Path(config["results"]), list(jobs)
+    results, jobs = Path(config.results), list(jobs)
     digest, _ = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
     counts = {}
     for case in coating_cases(config):
@@ -79,18 +79,18 @@ def forecast(
         runs = f"all {total['planned']:,} runs of the study are done"
     if not jobs:
         return runs
-    costs, n_blades = costs_of(config), config.get("rotor", {"blades": 1})["blades"]
+    costs, row = costs_of(config), config.plugged("rotor")
     simulated = seconds = 0.0
     left = {name: 1 - count["done"] / count["planned"] for name, count in counts.items()}
     for rule, coating in jobs:
         seconds += SECONDS_PER_JOB + SECONDS_AT_FIRST.get(rule, 0)
         if rule == "coating" and coating in counts:
-            simulated += left[coating] * n_blades * costs.runs[coating]
+            simulated += left[coating] * (row.blades if row else 1) * costs.runs[coating]
         elif rule in costs.further:  # of a coating whose own runs are done, what was listed once is too
             is_listed = (results / "runs" / str(coating) / rule / "manifest.tsv").exists()
             simulated += 0 if is_listed and not left[coating] else costs.further[rule].get(coating, 0)
-    revolutions = config["solver"]["revolutions"]
-    longer = max(config["analysis"]["divergence"]["confirmation_revolutions"] - revolutions, 0)
+    revolutions = config.solver.revolutions
+    longer = max(config.analysis.divergence.confirmation_revolutions - revolutions, 0)
     seconds += simulated * (revolutions + GROWING * longer) * SECONDS_PER_REVOLUTION
     minutes = max(seconds / 60 / (cores or 1), 1)
     machine = f"on {cores} cores" if cores and cores > 1 else "of one core"

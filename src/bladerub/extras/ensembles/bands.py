@@ -26,6 +26,7 @@ import scipy
 
 from bladerub.extras.ensembles.ensemble import Ensemble
 from bladerub.extras.important_runs import judged
+from bladerub.settings.study import Config
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, modulus_unit
@@ -105,9 +106,7 @@ def _with(maps: Sequence[CoatingMap], runs: Sequence[tuple[Ensemble, CoatingMap]
     return list(map(with_runs, maps))
 
 
-def of_peaks(
-    config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
-) -> pd.DataFrame:
+def of_peaks(config: Config, maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> pd.DataFrame:
     """Find the peaks of every coating, as `bladerub.study.peak_table.table`, with `PEAK_COLUMNS`.
 
     The last column, ``modulus_unit``, is what E = 1 and K = 1 are, Pa.
@@ -120,18 +119,14 @@ def of_peaks(
     finer = peak_table.table(config, refined(maps, ensembles))
     cases = {ensemble.refined.case for ensemble in ensembles}
     is_refined = [
-        coating.case in cases
-        for coating in maps
-        for _ in peak_settings(config, coating.case.casing)["orders"]
+        coating.case in cases for coating in maps for _ in peak_settings(config, coating.case.casing).orders
     ]
     for name in ("f_peak", "amplitude"):
         table[f"{name}_error"] = (ERROR * (finer[name] - table[name]).abs()).where(is_refined)
     return table.assign(modulus_unit=modulus_unit(config))
 
 
-def of_runs(
-    config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
-) -> pd.DataFrame:
+def of_runs(config: Config, maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> pd.DataFrame:
     """Find the bands of each run that has an ensemble: a row each, with `RUN_COLUMNS`, see `with_variant`."""
     coatings = {coating.case: coating for coating in maps}
     rows = [row for ensemble in ensembles for row in _run_bands(config, coatings, ensemble)]
@@ -139,7 +134,7 @@ def of_runs(
 
 
 def _run_bands(
-    config: Mapping[str, Any], maps: Mapping[CoatingCase, CoatingMap], ensemble: Ensemble
+    config: Config, maps: Mapping[CoatingCase, CoatingMap], ensemble: Ensemble
 ) -> Iterator[dict[str, Any]]:
     """Yield a row for each speed of the ensembles of one coating."""
     coating = maps[ensemble.members[0].case]
@@ -172,7 +167,7 @@ def _judgement(drawn: Sequence[Verdict]) -> dict[str, float]:
 
 
 def of_findings(
-    config: Mapping[str, Any],
+    config: Config,
     table: pd.DataFrame,
     rom_accuracy: pd.DataFrame,
     maps: Sequence[CoatingMap],

@@ -18,19 +18,20 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 from zlib import crc32
 
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
+from bladerub.extras.ensembles.settings import Ensemble as Settings
 from bladerub.extras.important_runs import chosen, judged, on_lobes, with_history
 from bladerub.io import hdf5
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
 from bladerub.study import maps
 from bladerub.study.grid import SAME_SPEED, CoatingCase, run_spec, speed_name, speeds
 from bladerub.study.job import RunDone, compute_missing
@@ -80,23 +81,23 @@ _REFINED = "refined_"
 _FINER = "with a quarter of the tolerance of the step"
 
 
-def starts(settings: Mapping[str, Any], case: CoatingCase, f_omega: float, members: int) -> np.ndarray:
-    """Draw the starts (members,) of one run, m; `settings` are ``config["ensemble"]``."""
-    entropy = [settings["seed"], crc32(f"{case.name}/{speed_name(f_omega)}".encode())]
-    limit = settings["displacement"]
+def starts(settings: Settings, case: CoatingCase, f_omega: float, members: int) -> np.ndarray:
+    """Draw the starts (members,) of one run, m; `settings` are ``config.ensemble``."""
+    entropy = [settings.seed, crc32(f"{case.name}/{speed_name(f_omega)}".encode())]
+    limit = settings.displacement
     return np.random.default_rng(entropy).uniform(-limit, limit, members)
 
 
-def expected_cost(config: Mapping[str, Any], case: CoatingCase) -> int:
+def expected_cost(config: Config, case: CoatingCase) -> int:
     """Count the members of a coating before its peaks are known, as if no two were next to each other.
 
     Refined runs count as `REFINED`.
     """
-    if not config["ensemble"]["members"]:
+    if not config.ensemble.members:
         return 0
     f_omega = np.array(speeds(config))
     by_name = int((with_history(config, case, f_omega) | on_lobes(case, f_omega)).sum())
-    return (config["ensemble"]["members"] + REFINED) * (by_name + 3 * len(peak_orders(config, case.casing)))
+    return (config.ensemble.members + REFINED) * (by_name + 3 * len(peak_orders(config, case.casing)))
 
 
 def refined(spec: RunSpec) -> RunSpec:
@@ -109,12 +110,12 @@ def refined(spec: RunSpec) -> RunSpec:
     )
 
 
-def plan(config: Mapping[str, Any], coating: CoatingMap) -> list[CoatingPlan]:
+def plan(config: Config, coating: CoatingMap) -> list[CoatingPlan]:
     """Plan the members of one coating, of the map `coating`, then the refined runs: the runs of each."""
-    settings, row, case, runs = config["ensemble"], row_of(config), coating.case, []
+    settings, row, case, runs = config.ensemble, row_of(config), coating.case, []
     followed = set(judged(config, coating).tolist())
     for f in chosen(config, coating).tolist():
-        spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings["members"])
+        spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings.members)
         members = [replace(spec, initial_displacement=start) for start in drawn.tolist()]
         files = [f"{speed_name(f)}_{number}.h5" for number in range(1, len(members) + 1)]
         members.append(refined(spec))
@@ -129,7 +130,7 @@ def plan(config: Mapping[str, Any], coating: CoatingMap) -> list[CoatingPlan]:
 
 
 def make(
-    config: Mapping[str, Any],
+    config: Config,
     coating: CoatingMap,
     blade: ReducedBlade,
     blade_digest: str,
@@ -154,7 +155,7 @@ def make(
         for member in planned
     ]
     start = [[run.spec.initial_displacement for run in member.runs] for member in planned[:-1]]
-    write(path, Ensemble(np.array(start), tuple(members), refined_runs), provenance(config))
+    write(path, Ensemble(np.array(start), tuple(members), refined_runs), provenance(config.plain()))
     return rows
 
 

@@ -103,7 +103,7 @@ class Ensemble(Shown, Comparable):
             together |= runs_of(run, prefix)
             attributes = run.attributes | {_START: start}
             together[prefix] = replace(run.stored, attributes=attributes)
-        run_set.write(path, together, provenance(self.planned.config))
+        run_set.write(path, together, provenance(self.planned.config.plain()))
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
         table = self.bands()
@@ -166,7 +166,7 @@ def simulate_ensemble(
     if members < 1:
         raise InputError("members", members, "must be at least 1")
     blade.check_speed("f_omega", run.f_omega)
-    start = np.append(0.0, starts(run.config["ensemble"], run.case, run.f_omega, members))
+    start = np.append(0.0, starts(run.config.plugged("ensemble"), run.case, run.f_omega, members))
     drawn = [
         replace(run, spec=replace(run.spec, initial_displacement=displacement))
         for displacement in start.tolist()[own is not None :]

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from bladerub.api.blade import Blade
     from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
+    from bladerub.settings.study import Config
 
 
 class EnsembleOption(RunOption):
@@ -23,7 +24,7 @@ class EnsembleOption(RunOption):
         text = "run it again from so many other starts, as the study does, and show the bands"
         parser.option("--ensemble", text, int, metavar="N")
 
-    def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
+    def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Refuse ensembles without members, and those of rows."""
         if options.ensemble is None:
             return

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import Metre, Section, Seed
+from bladerub.settings.fields import Metre, Section, Seed
 
 
 class Ensemble(Section):

@@ -2,11 +2,14 @@
 
 import argparse
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
 from bladerub.io.errors import BadInput
+
+if TYPE_CHECKING:
+    from bladerub.settings.study import Config
 
 COORDINATES = ("cartesian", "cylindrical")
 
@@ -31,12 +34,11 @@ def add_to(form: Any) -> None:
         form.add_argument(option, type=Path, metavar=metavar, help=text)
 
 
-def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+def write(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     """Write what the command line asks for of the blade; return the files and the size of the blade."""
     if options.fe_matrices:
         return _write_fe_matrices(options, config)
 
-    from bladerub.blade.elasticity import Material
     from bladerub.extras.export import calculix, matrices, mesh_file
     from bladerub.extras.export.vtu import read_mesh
 
@@ -44,7 +46,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
         file = getattr(options, option)
         if file and file.suffix.lower() not in suffixes:
             raise BadInput(f"--{option} {file}: must end in {', '.join(suffixes)}")
-    stored_blade = inputs.read_blade(options, config)
+    stored_blade, config = inputs.read_blade(options, config)
     path, blade = stored_blade.path, stored_blade.reduced
     with refused(OSError):
         mesh = read_mesh(stored_blade.mesh_path, blade)
@@ -60,37 +62,36 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
             mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets, fields)
             files = [options.mesh]
         else:
-            material = Material.from_config(config["blade"]["material"])
-            body = (mesh["points"], mesh["cells"], mesh["root_nodes"], material)
+            body = (mesh["points"], mesh["cells"], mesh["root_nodes"], config.blade.material)
             speeds = _speeds(options, blade.f_omega_max)
             files = calculix.write_decks(options.calculix, speeds, blade.f1_hz, *body)
     return _figures(files, mesh["points"], mesh["cells"], len(blade.mass))
 
 
-def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     """Compute the finite element matrices of the blade of the config again, and write them."""
     folder = options.fe_matrices
     if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
         raise BadInput(f"--fe-matrices {folder}: is there already, must be a new or an empty folder")
-    if "matrices" in config["blade"].get("source", {}):
+    source = config.blade.plugged("source")
+    if source and source.matrices:
         raise BadInput("--fe-matrices: the blade of the config is of matrices already, without elements")
     inputs.require_writable("fe-matrices", folder)
-    f_max = config["reduction"]["f_omega_max"]
+    f_max = config.reduction.f_omega_max
     speeds = sorted(_speeds(options, f_max))
 
     from bladerub.blade.build import meshed_blade
     from bladerub.blade.discrete import by_finite_elements
-    from bladerub.blade.elasticity import Material
     from bladerub.blade.model import n_interface
     from bladerub.blade.reduction import fit_speeds
     from bladerub.extras.export.matrices import write_fe_matrices
 
     blade = by_finite_elements(
-        meshed_blade(config["blade"], n_interface(config)),
-        Material.from_config(config["blade"]["material"]),
+        meshed_blade(config.blade, n_interface(config)),
+        config.blade.material,
         [*fit_speeds(f_max), *speeds],
         [],
-        config["reduction"]["accuracy_modes"],
+        config.reduction.accuracy_modes,
     )
     files = write_fe_matrices(folder, blade, f_max, f".{options.matrix_format or 'mtx'}")
     mesh = blade.layout.mesh.mesh
@@ -134,15 +135,15 @@ def in_words(figures: dict[str, Any]) -> str:
     return "\n".join([about, *(f"wrote {file}" for file in figures["files"])])
 
 
-def write_sections(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+def write_sections(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     """Write the table that the command line asks for; return its size."""
     from bladerub.extras.blades.origin import TABLE_SUFFIXES
 
     path = options.sections
     if path.suffix.lower() not in TABLE_SUFFIXES:
         raise BadInput(f"--sections {path}: must end in {', '.join(TABLE_SUFFIXES)}")
-    if source := config["blade"].get("source"):
-        origin = source.get("file") or source["matrices"]
+    if source := config.blade.plugged("source"):
+        origin = source.file or source.matrices
         raise BadInput(
             f"--sections {path}: the blade comes from {origin}; only a parametric one has sections"
         )
@@ -153,7 +154,7 @@ def write_sections(options: argparse.Namespace, config: dict[str, Any]) -> dict[
     coordinates = options.coordinates or COORDINATES[0]
     with refused(OSError), refused(ValueError, because=f"--coordinates {coordinates}: "):
         n_sections, n_stations = sections.write_sections(
-            path, BladeShape.from_config(config["blade"]), coordinates
+            path, BladeShape.from_config(config.blade), coordinates
         )
     return {"files": [str(path)], "coordinates": coordinates, "sections": n_sections, "stations": n_stations}
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub.blade.elasticity import Material
 from bladerub.io import atomic
+from bladerub.settings.blade import Material
 
 N_MODES = 10
 _KINDS = {20: "C3D20", 10: "C3D10"}

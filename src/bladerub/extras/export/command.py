@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from bladerub.blade.model import ReducedBlade
     from bladerub.extras.export.recording import Recording
     from bladerub.extras.rows.spec import Row
+    from bladerub.settings.study import Config
     from bladerub.study.plan import PlannedRun
     from bladerub.study.store import StoredRun
 
@@ -89,7 +90,7 @@ def export(options: argparse.Namespace) -> None:
         inputs.show(options, blade_command.write(options, config), blade_command.in_words)
 
 
-def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+def _motion(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     """Write the motion of a run; return what was written."""
     _check_new(options, config, "vtu")
 
@@ -98,7 +99,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     from bladerub.extras.stress.run import stress_of
     from bladerub.io.provenance import provenance
 
-    run, blade = _run_and_blade(options, config)
+    run, blade, config = _run_and_blade(options, config)
     with refused(OSError):
         mesh = read_mesh(blade.mesh_path, blade.reduced)
         stress = stress_of(blade.mesh_path, run.attributes["f_omega"])
@@ -106,7 +107,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     row = plan.row or Row.even(1)
     recording = _record(options, run, plan, blade.reduced, row, all_revolutions=False)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
-    about = {name: run.attributes[name] for name in names} | provenance(config)
+    about = {name: run.attributes[name] for name in names} | provenance(config.plain())
     with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
         largest = write_motion(options.vtu, mesh, recording, about, stress, plan.row)
     return {
@@ -122,7 +123,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     }
 
 
-def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+def _animation(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     """Write the animation of a run; return what was written."""
     if options.animation.suffix.lower() != ".gif":
         raise BadInput(f"--animation {options.animation}: must end in .gif")
@@ -131,7 +132,7 @@ def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str,
     from bladerub.extras.export.animation import animate
     from bladerub.extras.rows.spec import Row
 
-    run, blade = _run_and_blade(options, config)
+    run, blade, config = _run_and_blade(options, config)
     plan = _plan(options, config, run, blade.path)
     row = plan.row or Row.even(1)
     recording = _record(options, run, plan, blade.reduced, row, all_revolutions=True)
@@ -147,8 +148,8 @@ def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str,
     }
 
 
-def _check_new(options: argparse.Namespace, config: dict[str, Any], form: str) -> None:
-    inputs.require(options, samples=(1, config["contact"]["elements"]))
+def _check_new(options: argparse.Namespace, config: "Config", form: str) -> None:
+    inputs.require(options, samples=(1, config.contact.elements))
     path = getattr(options, form)
     if path.exists():
         kind = "folder" if form == "vtu" else "file"
@@ -156,7 +157,7 @@ def _check_new(options: argparse.Namespace, config: dict[str, Any], form: str) -
     inputs.require_writable(form, path)
 
 
-def _run_and_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tuple[StoredRun, Blade]":
+def _run_and_blade(options: argparse.Namespace, config: "Config") -> "tuple[StoredRun, Blade, Config]":
     from bladerub.study import run_set
 
     with refused(OSError, because="--run "):
@@ -164,10 +165,10 @@ def _run_and_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tupl
     path = inputs.blade_path(options, config)
     if not path.exists():
         raise BadInput(f"{path}: is missing; name the blade of the run with --blade, or its --config")
-    return run, inputs.read_blade(options, config)
+    return run, *inputs.read_blade(options, config)
 
 
-def _plan(options: argparse.Namespace, config: dict[str, Any], run: "StoredRun", blade: Path) -> "PlannedRun":
+def _plan(options: argparse.Namespace, config: "Config", run: "StoredRun", blade: Path) -> "PlannedRun":
     from bladerub.extras.export.claimed import claimed_run
     from bladerub.study.cache import blade_digest
 

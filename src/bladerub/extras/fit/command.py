@@ -32,7 +32,7 @@ def fit_coating(options: argparse.Namespace) -> None:
     """Fit the law to the table that the command line names, and print the parameters."""
     from bladerub.extras.fit.interface import fit_coating as fit
 
-    unit = inputs.read_config(options)["contact"]["modulus_unit"]
+    unit = inputs.read_config(options).contact.modulus_unit
     result = fit(options.table, strain_unit=options.strain_unit, stress_unit=options.stress_unit)
     names = [parameter.name for parameter in result.parameters]
     figures = {

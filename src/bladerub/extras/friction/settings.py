@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import Section
-from bladerub.config.models.quantities import CasingName, PlasticModulus, Theta, YoungModulus
+from bladerub.settings.fields import Section
+from bladerub.settings.quantities import CasingName, PlasticModulus, Theta, YoungModulus
 
 _SOME = Field(min_length=1, max_length=20)
 
@@ -25,7 +25,7 @@ class ComparedCoatings(Section):
 FRICTION = Annotated[
     list[ComparedCoatings],
     Field(
-        default=[{"casing": "2nd", "E": [1.1, 2, 20], "K": [0.5], "theta": [0.15, 0.3]}],
+        default=[ComparedCoatings(casing="2nd", E=[1.1, 2, 20], K=[0.5], theta=[0.15, 0.3])],
         max_length=100,
         description="Coatings that `snakemake friction` runs by both laws of friction "
         "(studies/friction/README.md). Each entry stands for all combinations; none need be in coatings.",

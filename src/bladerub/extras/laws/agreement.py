@@ -2,8 +2,9 @@
 
 from collections.abc import Iterator
 
-from bladerub.config.checks import Config, reads
+from bladerub.config.checks import reads
 from bladerub.extras.laws import heating
+from bladerub.settings.study import Config
 from bladerub.study.grid import UNSCALED, element_law
 
 
@@ -11,7 +12,7 @@ from bladerub.study.grid import UNSCALED, element_law
 def problems(config: Config) -> Iterator[str]:
     """Yield what is wrong with the law: its file, its parameters, or its layer in this coating."""
     try:
-        scale = config["contact"].get("scale", UNSCALED)
-        heating.check(element_law(config), config["contact"]["layer_thickness"] * scale["length"])
+        scale = config.contact.plugged("scale", UNSCALED)
+        heating.check(element_law(config), config.contact.layer_thickness * scale.length)
     except ValueError as error:
         yield f"contact.law.{error}"

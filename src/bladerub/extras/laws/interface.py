@@ -5,8 +5,8 @@ from types import MappingProxyType
 
 from bladerub.api.errors import InputError
 from bladerub.contact.spec import ElementLaw
+from bladerub.extras.law_reading import law_of
 from bladerub.extras.law_settings import law_entry
-from bladerub.study import grid
 
 
 class Law:
@@ -44,7 +44,7 @@ class Law:
     def __init__(self, name: str, **parameters: float | str):
         self._entry = law_entry(str(name), parameters)
         try:
-            self._described = grid.element_law({"contact": {"law": self._entry}})
+            self._described = law_of(self._entry)
         except ValueError as error:
             raise InputError("law", name, str(error)) from None
 

@@ -1,7 +1,7 @@
 """``bladerub run --law LAW``: another law of the elements than that of the config."""
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bladerub.cli import inputs
 from bladerub.cli.run_option import RunOption
@@ -10,6 +10,7 @@ from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.api.study import Study
+    from bladerub.settings.study import Config
 
 
 class LawOption(RunOption):
@@ -22,7 +23,7 @@ class LawOption(RunOption):
         text = "parameter of --law, SI units or with its unit; once for each of them"
         add_law_parameters_to(parser, "--law-parameter", text)
 
-    def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
+    def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Refuse a law of the rigid casing, and parameters of none."""
         if options.law is not None and options.coating == "rigid":
             raise BadInput(f"--law = {options.law}: goes with --coating abradable only")

@@ -2,10 +2,9 @@
 
 import itertools
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -18,6 +17,7 @@ from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
 from bladerub.study.divergence import verdicts
 from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.growth import Verdict, growth, judge
@@ -48,7 +48,7 @@ class LongRuns:
     seconds: np.ndarray  # (n, r), wall time until the end of each revolution; NaN likewise
 
 
-def chosen(config: Mapping[str, Any], coating: CoatingMap) -> dict[float, str]:
+def chosen(config: Config, coating: CoatingMap) -> dict[float, str]:
     """Choose the runs of a coating that are repeated for longer: the reason for each, by speed.
 
     These are its peaks, or where its orders meet C1 if it has none, and the completed runs that still grow at
@@ -56,8 +56,7 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> dict[float, str]:
     """
     peaks = peak_settings(config, coating.case.casing)
     reasons = {
-        float(coating.f_omega[nearest_speed(coating, order, peaks)]): f"f{order:g}"
-        for order in peaks["orders"]
+        float(coating.f_omega[nearest_speed(coating, order, peaks)]): f"f{order:g}" for order in peaks.orders
     }
     for f_omega, verdict in zip(coating.f_omega, verdicts(config, coating), strict=True):
         if verdict.divergent and verdict.status == "completed":
@@ -66,7 +65,7 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> dict[float, str]:
 
 
 def make(
-    config: Mapping[str, Any],
+    config: Config,
     coating: CoatingMap,
     blade: ReducedBlade,
     path: str | Path,
@@ -78,7 +77,7 @@ def make(
     """
     # or the time of the first run would include the loading of the machine code
     compile_kernel(n_nodes=blade.n_interface, law=element_law(config))
-    case, revolutions = coating.case, config["long_runs"]["revolutions"]
+    case, revolutions = coating.case, config.long_runs.revolutions
     reasons = chosen(config, coating)
     results, seconds = [], np.full((len(reasons), revolutions), np.nan)
     for elapsed, (f_omega, why) in zip(seconds, reasons.items(), strict=True):
@@ -100,7 +99,7 @@ def make(
         "seconds": (over_time, seconds, "s", "wall time until the end of each revolution"),
     }
     variables = {name: Variable(*description) for name, description in described.items()}
-    hdf5.write(path, variables, asdict(case), provenance(config))
+    hdf5.write(path, variables, asdict(case), provenance(config.plain()))
 
 
 def _stopwatch(elapsed: np.ndarray) -> Callable[[int], None]:
@@ -123,22 +122,22 @@ def read(path: str | Path) -> LongRuns:
         raise DamagedFile(f"{path}: no long runs, {error} is missing") from error
 
 
-def stops(config: Mapping[str, Any]) -> list[int]:
+def stops(config: Config) -> list[int]:
     """After how many revolutions a long run is judged: as in the study, as in its confirmation, and later."""
-    settings, last = config["analysis"]["divergence"], config["long_runs"]["revolutions"]
-    first = {config["solver"]["revolutions"], settings["confirmation_revolutions"]} - {0}
+    settings, last = config.analysis.divergence, config.long_runs.revolutions
+    first = {config.solver.revolutions, settings.confirmation_revolutions} - {0}
     doubled = [last // 2**halvings for halvings in range(3) if last // 2**halvings > max(first)]
     return sorted({*(n for n in first if n <= last), *doubled, last})
 
 
-def verdict_after(config: Mapping[str, Any], amplitude: np.ndarray, revolutions: int) -> tuple[str, Verdict]:
+def verdict_after(config: Config, amplitude: np.ndarray, revolutions: int) -> tuple[str, Verdict]:
     """Judge the first `revolutions` of a long run.
 
     It is ``unbounded``, ``divergent``, ``free`` if the vibration has died out because the blade has worn the
     coating away (`DIED_OUT`), ``saturating`` if it grew in the revolutions of the study and no longer does,
     or ``steady``.
     """
-    settings, history = config["analysis"]["divergence"], amplitude[:revolutions]
+    settings, history = config.analysis.divergence, amplitude[:revolutions]
     status = "completed" if np.isfinite(history).all() else "unbounded"
     verdict = judge(history, status, settings)
     if status == "unbounded":
@@ -147,16 +146,16 @@ def verdict_after(config: Mapping[str, Any], amplitude: np.ndarray, revolutions:
         return "divergent", verdict
     if history[-1] < DIED_OUT * history.max():
         return "free", verdict
-    grew = verdict.growth.grows or growth(amplitude[: config["solver"]["revolutions"]], settings).grows
+    grew = verdict.growth.grows or growth(amplitude[: config.solver.revolutions], settings).grows
     return ("saturating" if grew else "steady"), verdict
 
 
-def table(config: Mapping[str, Any], coatings: Iterable[LongRuns]) -> pd.DataFrame:
+def table(config: Config, coatings: Iterable[LongRuns]) -> pd.DataFrame:
     """Judge long runs after each of `stops`: a row per run and stop.
 
     ``max_wear`` and ``status`` are of the whole run, all else of the revolutions until the stop.
     """
-    last = config["analysis"]["divergence"]["revolutions"]
+    last = config.analysis.divergence.revolutions
     rows = []
     for long in coatings:
         for index, revolutions in itertools.product(range(long.f_omega.size), stops(config)):

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import UNIQUE, Form, Limit, Omitted, Section, Speed, Unit
+from bladerub.settings.fields import UNIQUE, Form, Limit, Omitted, Section, Speed, Unit
 
 _Coating = Annotated[
     str,

@@ -1,10 +1,9 @@
 """Which coatings are swept, and how; without the solver, for the planning of the jobs."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 from bladerub.contact.spec import RunSpec
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 
 
@@ -21,16 +20,16 @@ class SweepSpec:
 DIRECTIONS = ("up", "down")
 
 
-def swept_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
+def swept_cases(config: Config) -> list[CoatingCase]:
     """List the coatings of ``sweeps.coatings`` that the study has."""
-    names = set(config["sweeps"]["coatings"])
+    names = set(config.sweeps.coatings)
     return [case for case in coating_cases(config) if case.name in names]
 
 
-def sweep_spec(config: Mapping[str, Any], case: CoatingCase, direction: str, rate: float) -> SweepSpec:
+def sweep_spec(config: Config, case: CoatingCase, direction: str, rate: float) -> SweepSpec:
     """Describe one sweep in SI units; it begins at rest, on a new coating."""
-    settings = config["sweeps"]
-    ends = settings["start"], settings.get("stop", config["reduction"]["f_omega_max"])
+    settings = config.sweeps
+    ends = settings.start, settings.stop or config.reduction.f_omega_max
     start, stop = ends if direction == "up" else ends[::-1]
     run = replace(run_spec(config, case, start), revolutions=0)
-    return SweepSpec(run, float(stop), rate, float(settings["speed_step"]))
+    return SweepSpec(run, stop, rate, settings.speed_step)

@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -16,6 +15,7 @@ from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_orders
@@ -64,7 +64,7 @@ class SpeedSweep:
 
 
 def make(
-    config: Mapping[str, Any],
+    config: Config,
     case: CoatingCase,
     blade: ReducedBlade,
     direction: str,
@@ -76,14 +76,14 @@ def make(
     Raises `ValueError`, naming the rate, if the sweep has fewer revolutions than a spectrum.
     """
     result = simulate_sweep(blade, sweep_spec(config, case, direction, rate))
-    analysis = config["analysis"]
-    window, revolutions = analysis["spectrum_revolutions"], result.f_omega.size
+    analysis = config.analysis
+    window, revolutions = analysis.spectrum_revolutions, result.f_omega.size
     if revolutions < window:
         raise ValueError(
             f"sweeps.rates = {rate:g}: the sweep of {case.name} has {revolutions} revolutions, a spectrum "
             f"needs {window}; must be slower"
         )
-    f_omega, order, amplitude = _spectra(result, window, analysis["max_order"])
+    f_omega, order, amplitude = _spectra(result, window, analysis.max_order)
     C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in f_omega]) / blade.f1_hz
     values = vars(result) | {
         "wear": result.wear.astype(np.float32),
@@ -106,7 +106,7 @@ def make(
         "energy_work_stiffness": result.work_stiffness,
         **{f"energy_{name}": value for name, value in vars(result.energy).items()},
     }
-    hdf5.write(path, variables, attributes, provenance(config))
+    hdf5.write(path, variables, attributes, provenance(config.plain()))
     return result
 
 
@@ -138,7 +138,7 @@ def read(path: str | Path) -> SpeedSweep:
 
 
 def table(
-    config: Mapping[str, Any], sweeps: Iterable[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]
+    config: Config, sweeps: Iterable[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]
 ) -> pd.DataFrame:
     """Compare the peaks of sweeps with those at constant speed, in `maps`: a row per sweep and engine order.
 
@@ -146,7 +146,7 @@ def table(
     exceeds the displacement limit before. A peak ``survives`` from the ratio ``sweeps.survival`` of
     amplitudes on; whether it does is missing where there is none at constant speed.
     """
-    settings = config["analysis"]["peaks"]
+    settings = config.analysis.peaks
     rows = []
     pairs = ((sweep, order) for sweep in sweeps for order in peak_orders(config, sweep.case.casing))
     for sweep, order in pairs:
@@ -171,6 +171,6 @@ def table(
         )
     table = pd.DataFrame(rows)
     table["ratio"] = table.amplitude / table.amplitude_constant
-    survives = (table.ratio >= config["sweeps"]["survival"]).astype("boolean")
+    survives = (table.ratio >= config.sweeps.survival).astype("boolean")
     table["survives"] = survives.mask(~(table.amplitude_constant > 0))
     return with_variant(table, COLUMNS)

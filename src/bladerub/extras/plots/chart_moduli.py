@@ -1,6 +1,5 @@
 """The chart over E and K: one quantity with contours, the paper's coatings and the ridge; the limits kept."""
 
-from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, MaxNLocator
 
+from bladerub.extras.chart.settings import Limits
 from bladerub.plots import titles
 from bladerub.plots.bins import edges
 from bladerub.plots.style import DARK, HEIGHT_MAP, MISSING, PAGE, new_figure, styled
@@ -114,7 +114,7 @@ def _keys(about: Quantity) -> list[Line2D]:
 
 
 @styled
-def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Mapping[str, float], unit: float) -> Figure:
+def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Limits, unit: float) -> Figure:
     """Draw for each θ which coatings of ``chart.csv`` exceed which of the `limits`.
 
     `broken` is for the same rows, from `bladerub.extras.chart.choice.broken_limits`; E = 1 is `unit`, Pa.
@@ -128,7 +128,7 @@ def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Mapping[str, f
     )
     figure = new_figure(PAGE, 0.55 * PAGE)
     for axes, rows in _panels(figure, judged, unit):
-        shades = _SHADES[: len(limits) + 1]
+        shades = _SHADES[: len(broken.columns) + 1]
         grid, colours = _over_moduli(rows, "broken"), ListedColormap(shades)
         _colour(axes, grid, cmap=colours, vmin=-0.5, vmax=len(shades) - 0.5, edgecolors="white", lw=0.2)
         size = min(7.0, 75 / max(grid.shape))
@@ -140,14 +140,14 @@ def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Mapping[str, f
     return figure
 
 
-def _limit_keys(limits: Mapping[str, float]) -> list[Patch]:
+def _limit_keys(limits: Limits) -> list[Patch]:
     words = {
-        "amplitude": f"A: displacement above {1e3 * limits['amplitude']:g} mm",
-        "wear": f"W: wear deeper than {1e3 * limits['wear']:g} mm",
-        "divergent_share": f"D: more than {100 * limits['divergent_share']:g} % of the speeds diverge",
+        "amplitude": f"A: displacement above {1e3 * limits.amplitude:g} mm",
+        "wear": f"W: wear deeper than {1e3 * limits.wear:g} mm",
+        "divergent_share": f"D: more than {100 * limits.divergent_share:g} % of the speeds diverge",
     }
-    if "fatigue" in limits:
-        words["fatigue"] = f"F: alternating stress above {limits['fatigue'] / 1e6:g} MPa"
+    if limits.fatigue is not None:
+        words["fatigue"] = f"F: alternating stress above {limits.fatigue / 1e6:g} MPa"
     safe = Patch(facecolor=_SHADES[0], edgecolor=DARK, linewidth=0.5, label="all limits kept")
     return [safe, *(Patch(facecolor="none", label=text) for text in words.values())]
 

@@ -1,14 +1,16 @@
 """The reduction of a discretised blade, with more fit speeds and modes where a tolerance asks for them."""
 
 import logging
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable
+from dataclasses import replace
 
 from bladerub.blade.accuracy import MODES, errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade
+from bladerub.blade.files import made_from
 from bladerub.blade.reduction import reduce
 from bladerub.io.errors import BadInput
+from bladerub.settings.blade import BladeSpec
 
 log = logging.getLogger(__name__)
 
@@ -17,7 +19,7 @@ MOST_MODES_PER_SPEED = 30
 
 
 def reduce_to_tolerance(
-    discrete: Callable[[int], DiscreteBlade], config: Mapping[str, Any], most_fit_speeds: int | None
+    discrete: Callable[[int], DiscreteBlade], config: BladeSpec, most_fit_speeds: int | None
 ) -> BuiltBlade:
     """Reduce the blade that `discrete` gives for a number of fit speeds, at most `most_fit_speeds`.
 
@@ -25,19 +27,19 @@ def reduce_to_tolerance(
     ``reduction.tolerance``. While eq. (2) alone has more than half of what is allowed, one fit speed is
     added, else two modes at each speed. If that is not enough, a BadInput states the error that is reached.
     """
-    reduction, most = dict(config["reduction"]), most_fit_speeds or MOST_FIT_SPEEDS
-    tolerance = reduction["tolerance"]
+    reduction, most = config.reduction, most_fit_speeds or MOST_FIT_SPEEDS
+    tolerance, n_speeds, n_modes = reduction.tolerance, reduction.fit_speeds or 3, reduction.modes_per_speed
     while True:
-        n_speeds, n_modes = reduction.get("fit_speeds", 3), reduction["modes_per_speed"]
-        built = reduce(discrete(n_speeds), config, reduction)
+        finer = config.replaced("reduction.fit_speeds", n_speeds)
+        built = reduce(discrete(n_speeds), finer.replaced("reduction.modes_per_speed", n_modes))
         errors = errors_by_mode(built.accuracy)[:MODES].max()
         log.info("%d fit speeds, %d modes at each: error %.3g", n_speeds, n_modes, errors.reduced_model)
         if errors.reduced_model <= tolerance:
-            return built
+            return replace(built, made_from=made_from(config))
         if errors.speed_law > tolerance / 2 and n_speeds < most:
-            reduction["fit_speeds"] = n_speeds + 1
+            n_speeds += 1
         elif n_modes < MOST_MODES_PER_SPEED:
-            reduction["modes_per_speed"] = n_modes + 2
+            n_modes += 2
         else:
             raise BadInput(
                 f"reduction.tolerance = {tolerance:g}: the reduced model comes to "

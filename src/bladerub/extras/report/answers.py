@@ -20,7 +20,7 @@ _ELSEWHERE = 1.05  # times the highest peak, from which on vibration beside the 
 def shown(results: Results, most: int) -> list[str]:
     """Choose the coatings whose maps are shown: the worst, the best and those with a history."""
     known = results.coatings.amplitude.dropna().index
-    histories = [listed_case(entry).name for entry in results.config["analysis"]["histories"]]
+    histories = [listed_case(entry).name for entry in results.config.analysis.histories]
     names = dict.fromkeys([*known[:1], *known[-1:], *histories])
     return [name for name in names if name in results.cases][:most]
 
@@ -70,7 +70,7 @@ def doubtful(results: Results) -> pd.DataFrame:
     runs = results.runs
     reasons = {
         f"displacement above {LARGE_DISPLACEMENT:.0%} of the blade length": runs.displacement
-        >= LARGE_DISPLACEMENT * results.config["blade"]["length"],
+        >= LARGE_DISPLACEMENT * results.config.blade.length,
         "ended at the displacement limit": runs.unbounded,
         "chaotic: other starts have another verdict": runs.divergent_draws.between(0, 1, "neither"),
         "contact forces not converged": runs.unconverged > 0,
@@ -91,7 +91,7 @@ def unsought(results: Results) -> Iterator[tuple[str, dict[int, float]]]:
     """Find casings, and rpm (NaN: outside) where orders on which the study seeks no peak cross mode 1."""
     for casing in used_casings(results.config):
         coating = results.map(next(name for name, case in results.cases.items() if case.casing == casing))
-        sought, entry = peak_orders(results.config, casing), results.config["casings"][casing]
+        sought, entry = peak_orders(results.config, casing), results.config.casings[casing]
         orders = [order for order in range(1, 13) if order not in sought and excites(entry, order)]
         if orders:
             yield casing, {order: 60 * results.f1_hz * crossing_speed(coating, order) for order in orders}

@@ -35,7 +35,7 @@ def add_to(commands: Any) -> None:
 def report(options: argparse.Namespace) -> None:
     """Write the page, and print where it is and which coating is the worst."""
     config = inputs.read_config(options)
-    folder = inputs.study_folder() / config["results"]
+    folder = inputs.study_folder() / config.results
     path = options.output or folder / "report.html"
     inputs.require_writable("output", path)
 

@@ -42,8 +42,8 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
         origin=origin,
         shown=shown,
         runs=dict(list(results.runs.groupby("name"))),
-        doubts=doubts(results.accuracy, config["figures"].get("nominal_speed")),
-        is_of_config=results.origin.get("provenance_config_sha256") == config_digest(config),
+        doubts=doubts(results.accuracy, config.figures.nominal_speed),
+        is_of_config=results.origin.get("provenance_config_sha256") == config_digest(config.plain()),
         specs={case.casing: run_spec(config, case, 0.0) for case in results.cases.values()},
         modulus_unit=modulus_unit(config),
         degrees=math.degrees,
@@ -54,8 +54,8 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
 
 
 def _scales(results: Results) -> Scales:
-    engine = Engine(results.f1_hz, results.config["figures"].get("nominal_speed"))
-    return Scales(modulus_unit(results.config), results.config["blade"]["length"], engine)
+    engine = Engine(results.f1_hz, results.config.figures.nominal_speed)
+    return Scales(modulus_unit(results.config), results.config.blade.length, engine)
 
 
 def _campbell(results: Results) -> str:
@@ -74,8 +74,8 @@ def _campbell(results: Results) -> str:
 
 def _maps(results: Results, name: str) -> dict[str, str]:
     """Draw wear and spectra of a coating over the speed, as addresses of PNGs that hold them, by caption."""
-    figures, scales, coating = results.config["figures"], _scales(results), results.map(name)
-    ends, highest, worn = tuple(figures["amplitude_range"]), figures["max_frequency"], coating.max_wear.any()
+    figures, scales, coating = results.config.figures, _scales(results), results.map(name)
+    ends, highest, worn = tuple(figures.amplitude_range), figures.max_frequency, coating.max_wear.any()
     return {
         **({"Worn depth around the casing over the speed": _png(wear_map(coating, scales))} if worn else {}),
         "Vibration over frequency and speed": _png(spectrum_map(coating, ends, highest, scales)),

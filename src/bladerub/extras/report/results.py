@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -11,6 +11,7 @@ from bladerub.blade.accuracy import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
 from bladerub.contact.result import UNBALANCED
 from bladerub.extras.further_columns import with_further
 from bladerub.io import hdf5, tables
+from bladerub.settings.study import Config
 from bladerub.study import divergence, peaks
 from bladerub.study.grid import CoatingCase, coating_cases
 from bladerub.study.manifest import read_manifest
@@ -35,7 +36,7 @@ class Results(NamedTuple):
     the displacement limit. ``chart`` is ``chart_choice.csv``, empty without a chart.
     """
 
-    config: Mapping[str, Any]
+    config: Config
     folder: Path
     f1_hz: float  # of the blade at rest
     cases: dict[str, CoatingCase]
@@ -52,13 +53,13 @@ class Results(NamedTuple):
         return read_map(self.folder / f"maps/{name}.h5")
 
 
-def files(config: Mapping[str, Any], folder: Path) -> list[Path]:
+def files(config: Config, folder: Path) -> list[Path]:
     """List the files that a report needs of the results `folder`."""
     tables = [folder / f"tables/{name}.csv" for name in ("campbell", "rom_accuracy", "peaks", "divergence")]
     return [folder / BLADE, *(folder / f"maps/{case.name}.h5" for case in coating_cases(config)), *tables]
 
 
-def read(config: Mapping[str, Any], folder: Path) -> Results:
+def read(config: Config, folder: Path) -> Results:
     """Read a finished study from the results `folder`.
 
     Raises `OSError`, naming the file, if one is damaged, and `ValueError` if tables and maps are not of the

@@ -1,12 +1,11 @@
 """Quantities of a study in the units of an engineer: filters of the template."""
 
 import math
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
-from bladerub.config.units import pressure_in_words
+from bladerub.settings.study import Config
+from bladerub.settings.units import pressure_in_words
 from bladerub.study.grid import CoatingCase, modulus_unit, run_spec
 
 NONE = "–"  # a quantity that is not known
@@ -34,7 +33,7 @@ def band(low: float, high: float) -> str:
     return NONE if math.isnan(low + high) else f"{mm(low, 4)} to {mm(high, 4)}"
 
 
-def properties(config: Mapping[str, Any], case: CoatingCase) -> dict[str, str]:
+def properties(config: Config, case: CoatingCase) -> dict[str, str]:
     """Write casing, moduli and direction of the force of a coating, each with its unit."""
     modulus = {
         key: "rigid" if case.is_rigid else pressure_in_words(modulus_unit(config) * getattr(case, key))
@@ -44,7 +43,7 @@ def properties(config: Mapping[str, Any], case: CoatingCase) -> dict[str, str]:
     return {"casing": case.casing, **modulus, "theta": force}
 
 
-def title(config: Mapping[str, Any], case: CoatingCase) -> str:
+def title(config: Config, case: CoatingCase) -> str:
     """Name a coating by its properties, and by what it has of its own."""
     about, spec = properties(config, case), run_spec(config, case, 0.0)
     layer = "rigid" if case.is_rigid else f"E = {about['E']}, K = {about['K']}"

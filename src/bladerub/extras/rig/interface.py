@@ -61,5 +61,5 @@ def simulate_rig(
     if blade is None:
         return simulate_passes(rig)
     if damping_ratio is None:
-        damping_ratio = default_study().config["contact"]["damping_ratio"]
+        damping_ratio = default_study().config.contact.damping_ratio
     return simulate_blade_passes(rig, blade.reduced, damping_ratio, disk_turns)

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import Form, Metre, Name, Omitted, Pascal, Radian, Section, Unit
 from bladerub.extras.law_settings import Law
+from bladerub.settings.fields import Form, Metre, Name, Omitted, Pascal, Radian, Section, Unit
 
 
 class RigSettings(Section):

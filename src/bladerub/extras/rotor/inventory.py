@@ -1,17 +1,14 @@
 """The runs of rows of blades, counted."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from bladerub.extras.rotor.plan import PLAN, RUNS, read_plan
 from bladerub.io.folders import study_folder
+from bladerub.settings.study import Config
 from bladerub.study.inventory import Inventory, take
 
 
-def inventories(
-    config: Mapping[str, Any], results: Path, digest: str | None, thorough: bool
-) -> list[Inventory]:
+def inventories(config: Config, results: Path, digest: str | None, thorough: bool) -> list[Inventory]:
     """Take the inventories of the rows of blades, if any were begun."""
     path = study_folder() / PLAN
     if not ((results / RUNS).exists() and path.exists()):

@@ -1,8 +1,6 @@
 """Whether the pattern of the wear turns around the casing as it deepens."""
 
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,13 +11,14 @@ from bladerub.extras.rotor.plan import Patterns, Plan, described
 from bladerub.extras.rotor.summary import WHAT
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Row
+from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec
 
 COLUMNS = [*WHAT, "draw", "pattern_harmonic", "revolution", "pattern_angle", "pattern_depth", "pattern_drift"]
 """Columns of the table of patterns."""
 
 
-def table(config: Mapping[str, Any], blade: ReducedBlade, plan: Plan) -> pd.DataFrame:
+def table(config: Config, blade: ReducedBlade, plan: Plan) -> pd.DataFrame:
     """Follow the worn pattern of each row among the patterns of `plan`: a line an interval, with `COLUMNS`.
 
     `config` is the study. Raises `ValueError` as `bladerub.extras.rows.row.simulate_row`.

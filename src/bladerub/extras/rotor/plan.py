@@ -12,6 +12,7 @@ from bladerub.extras import plans
 from bladerub.extras.rotor.settings import RotorPlan
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.rows.study import drawn
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec, speed_name
 from bladerub.study.plan import CoatingPlan, planned_run
 
@@ -74,7 +75,7 @@ class Plan:
         """Draw the blades of one row of a combination."""
         return combination.row(self.seed + draw)
 
-    def runs(self, config: Mapping[str, Any], name: str) -> CoatingPlan:
+    def runs(self, config: Config, name: str) -> CoatingPlan:
         """Plan the draws of one combination as runs of the study `config`; growth is not followed further."""
         combination = self.combinations[name]
         spec = run_spec(config, combination.case, combination.f_omega)
@@ -92,7 +93,7 @@ RUNS = Path("rotor/runs")
 """Folder of the rows, a subfolder for each combination, in that of the results."""
 
 
-def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
+def read_plan(path: str | Path, config: Config) -> Plan:
     """Read a plan (config/rotor.yaml says what it holds) for the study `config`.
 
     Identical blades are one row, and the single nominal blade stands beside each combination. Raises
@@ -140,10 +141,10 @@ def _combinations_of(group: Mapping[str, Any]) -> Iterator[tuple[Combination, in
         )
 
 
-def _check(name: str, located: Located, config: Mapping[str, Any]) -> None:
-    group, fastest = located.plain(), config["reduction"]["f_omega_max"]
-    if group["casing"] not in config["casings"]:
-        names = ", ".join(config["casings"])
+def _check(name: str, located: Located, config: Config) -> None:
+    group, fastest = located.plain(), config.reduction.f_omega_max
+    if group["casing"] not in config.casings:
+        names = ", ".join(config.casings)
         text = f'{name}.casing = "{group["casing"]}": must be one of the casings, {names}'
         raise ConfigError.at(located.location, text)
     for f_omega in group["f_omega"]:

@@ -10,6 +10,7 @@ from scipy.stats import binom
 
 from bladerub.extras.rotor.plan import Combination, Plan, described
 from bladerub.extras.rows.datasets import OF_BLADES
+from bladerub.settings.analysis import Analysis
 from bladerub.study.growth import judge
 from bladerub.study.manifest import read_manifest
 from bladerub.study.store import read_run
@@ -34,10 +35,10 @@ COLUMNS += ["wear_harmonic", "wear_harmonic_rows", "lobes_lowest", "lobes_highes
 """Columns of the table of combinations."""
 
 
-def draws(plan: Plan, folder: str | Path, analysis: Mapping[str, Any]) -> pd.DataFrame:
+def draws(plan: Plan, folder: str | Path, analysis: Analysis) -> pd.DataFrame:
     """List every draw of `plan`, whose runs are in `folder`: a row each, with `DRAWS`.
 
-    Lobes are counted and growth is judged by ``config["analysis"]``. Raises `OSError`, naming the file, if a
+    Lobes are counted and growth is judged by ``config.analysis``. Raises `OSError`, naming the file, if a
     run is missing or damaged.
     """
     single_amplitude: dict[str, float] = {}
@@ -56,14 +57,14 @@ def draws(plan: Plan, folder: str | Path, analysis: Mapping[str, Any]) -> pd.Dat
     return pd.DataFrame(rows)[DRAWS]
 
 
-def _measure(path: Path, analysis: Mapping[str, Any]) -> dict[str, float]:
+def _measure(path: Path, analysis: Analysis) -> dict[str, float]:
     run = read_run(path, {"angle", "wear", "revolution_amplitude", *OF_BLADES})
     data, share = run.data, run.data["blade_worn_volume"]
     share = share / share.sum() if share.sum() else np.full(share.size, np.nan)
     length, amplitude = data["blade_length"], data["blade_amplitude"]
     longest = int(np.argmax(length))
     harmonic, harmonic_share = dominant_harmonic(data["wear"])
-    grown = judge(data["revolution_amplitude"], run.attributes["status"], analysis["divergence"])
+    grown = judge(data["revolution_amplitude"], run.attributes["status"], analysis.divergence)
     some = 1.0 if np.ptp(length) > 0 else np.nan  # blade is longer than others
     return {
         "status": run.attributes["status"],
@@ -75,7 +76,7 @@ def _measure(path: Path, analysis: Mapping[str, Any]) -> dict[str, float]:
         "max_wear": float(data["wear"].max()),
         "wear_harmonic": harmonic,
         "wear_harmonic_share": harmonic_share,
-        "lobes": lobes(data["angle"], data["wear"], analysis["lobe_prominence"]),
+        "lobes": lobes(data["angle"], data["wear"], analysis.lobe_prominence),
         "divergent": int(grown.divergent),
         "energy_residual": float(run.attributes["energy_residual"]),
     }

@@ -7,7 +7,6 @@ Vib. 460, 2019, 114878): no centrifugal stiffening, 50 revolutions.
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -17,6 +16,7 @@ from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.rotor37.numbers import of_direct_contact
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 
 SPEED = 1344.0
@@ -32,13 +32,13 @@ def unstiffened(blade: ReducedBlade) -> ReducedBlade:
     return replace(blade, stiffness_1=none, stiffness_2=none, stiffness_higher=())
 
 
-def spec_of(config: Mapping[str, Any], blade: ReducedBlade, friction: float) -> RunSpec:
+def spec_of(config: Config, blade: ReducedBlade, friction: float) -> RunSpec:
     """Describe the run."""
     spec = run_spec(config, CoatingCase.rigid(CASING, friction), SPEED / (2 * np.pi * blade.f1_hz))
     return replace(spec, revolutions=REVOLUTIONS)
 
 
-def runs(config: Mapping[str, Any], blade: ReducedBlade) -> dict[str, RunResult]:
+def runs(config: Config, blade: ReducedBlade) -> dict[str, RunResult]:
     """Simulate the cases, by name: with and without friction, and each with stiffening as well."""
     results = {}
     for friction in FRICTION:

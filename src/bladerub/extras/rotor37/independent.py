@@ -4,9 +4,7 @@ It has the mass and stiffness of the same reduced blade, and a massless boundary
 (`bladerub.extras.verification.impact`); or Moreau's time stepping, or stiff springs. Without friction.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import pandas as pd
 from threadpoolctl import threadpool_limits
@@ -16,6 +14,7 @@ from bladerub.contact.modes import modes_at
 from bladerub.extras.rotor37 import direct
 from bladerub.extras.rotor37.numbers import of_displacement
 from bladerub.extras.verification import impact
+from bladerub.settings.study import Config
 
 STEPS = 20
 """Time steps in the passage of a coating element; half as many are tried as well."""
@@ -24,7 +23,7 @@ COLUMNS = ["treatment", "modes", "steps", "number", "value", "unit"]
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
-def table(config: Mapping[str, Any], blade: ReducedBlade) -> pd.DataFrame:
+def table(config: Config, blade: ReducedBlade) -> pd.DataFrame:
     """Simulate the case without stiffening and friction: the numbers of `direct`, by each way to compute it.
 
     ``modes`` are those that move; the massless boundary has the others as static displacement.

@@ -26,6 +26,7 @@ from bladerub.contact.strips import running_clearance
 from bladerub.extras.rotor37 import direct
 from bladerub.extras.rotor37.numbers import of_displacement
 from bladerub.io.errors import BadInput
+from bladerub.settings.study import Config
 
 VARIABLE = "BLADERUB_NLSTEP"
 """Environment variable with the folder of `FUNCTION`."""
@@ -155,7 +156,7 @@ def _octave(*arguments: str) -> str:
 
 
 def table(
-    config: Mapping[str, Any], blade: ReducedBlade, function: Path, friction: float, n_modes: int, steps: int
+    config: Config, blade: ReducedBlade, function: Path, friction: float, n_modes: int, steps: int
 ) -> pd.DataFrame:
     """Measure one of `CASES` by NLstep: the numbers of `direct`, columns `COLUMNS`."""
     model, spec = direct.unstiffened(blade), direct.spec_of(config, blade, friction)

@@ -1,8 +1,7 @@
 """The numbers that other codes can be compared with: of the blade, of direct contact, of coatings."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,6 +12,7 @@ from bladerub.blade.tip import tip_radius
 from bladerub.contact.result import RunResult
 from bladerub.extras.blades.similarity import tip_stiffness
 from bladerub.io import tables
+from bladerub.settings.study import Config
 from bladerub.study import divergence, peaks
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
@@ -28,7 +28,7 @@ _N_FREQUENCIES = 6
 _LAST = 5  # revolutions at the end over which a response counts as steady
 
 
-def of_blade(config: Mapping[str, Any], blade: ReducedBlade) -> pd.DataFrame:
+def of_blade(config: Config, blade: ReducedBlade) -> pd.DataFrame:
     """Frequencies at rest and at the nominal speed, and what contact meets at the tip."""
     nominal, lean = nominal_speed(config, blade), tip_lean(blade)
     rows: list[tuple[str, float, str]] = []
@@ -44,9 +44,9 @@ def of_blade(config: Mapping[str, Any], blade: ReducedBlade) -> pd.DataFrame:
     return _numbers(rows)
 
 
-def nominal_speed(config: Mapping[str, Any], blade: ReducedBlade) -> float:
+def nominal_speed(config: Config, blade: ReducedBlade) -> float:
     """``figures.nominal_speed``, the design speed, normalised by the first frequency of `blade`."""
-    return config["figures"]["nominal_speed"] / 60 / blade.f1_hz
+    return config.figures.nominal_speed / 60 / blade.f1_hz
 
 
 def of_direct_contact(name: str, result: RunResult, revolutions: int) -> pd.DataFrame:
@@ -68,7 +68,7 @@ def of_displacement(name: str, radial_displacement: np.ndarray, revolutions: int
     return _numbers(rows)
 
 
-def of_coating(config: Mapping[str, Any], coating: CoatingMap, blade: ReducedBlade) -> pd.DataFrame:
+def of_coating(config: Config, coating: CoatingMap, blade: ReducedBlade) -> pd.DataFrame:
     """Peaks, wear and divergence of a coating over its speeds; no wear of the rigid casing.
 
     An order without a bounded run near its crossing has no peak.
@@ -88,7 +88,7 @@ def of_coating(config: Mapping[str, Any], coating: CoatingMap, blade: ReducedBla
 
 
 def _peak(
-    config: Mapping[str, Any], coating: CoatingMap, order: int, rpm: float
+    config: Config, coating: CoatingMap, order: int, rpm: float
 ) -> Iterator[tuple[str, float, str, float]]:
     try:
         peak = peaks.peak(coating, order, peak_settings(config, coating.case.casing))

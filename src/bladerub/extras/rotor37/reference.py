@@ -1,7 +1,6 @@
 """Reference numbers with their uncertainty: from the same numbers for a plan of variations."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -9,6 +8,7 @@ import pandas as pd
 from bladerub.config import read as configuration
 from bladerub.extras.variations.plan import read
 from bladerub.io.folders import CONFIG, ROOT
+from bladerub.settings.study import Config
 
 PLAN = ROOT / "config" / "rotor37_reference.yaml"
 """What is computed, and with which variations."""
@@ -22,7 +22,7 @@ COLUMNS = ["number", "value", "unit", "uncertainty", "resolution", *(f"by_{name}
 """Columns of a table of reference numbers."""
 
 
-def plan() -> dict[str, dict[str, Any]]:
+def plan() -> dict[str, Config]:
     """Return the config of each set of the plan, laid over the paper's study, whatever that at work is."""
     study = configuration.read(ROOT / CONFIG)
     return {

@@ -5,10 +5,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bladerub.config.checks import Config, reads
-from bladerub.config.errors import format_value
+from bladerub.config.checks import reads
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.rows.study import described
+from bladerub.io.errors import format_value
+from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases
 
 
@@ -20,21 +21,21 @@ def problems(config: Config) -> Iterator[str]:
     except ValueError as error:  # it begins with "row: "
         yield f"rotor: {str(error).partition(': ')[2]}"
         return
-    contact = config["contact"]
-    ratios = (case.own.get("damping_ratio", contact["damping_ratio"]) for case in coating_cases(config))
+    usual = config.contact.damping_ratio
+    ratios = (case.own.get("damping_ratio", usual) for case in coating_cases(config))
     if (ratio := max(ratios) * max(blade.damping for blade in row.blades)) >= 1:
-        damping = format_value(config["rotor"]["damping"])
+        damping = format_value(config.rotor.damping)
         yield f"rotor.damping = {damping}: must be below 1 times the damping ratio, it comes to {ratio:g}"
-    if "source" not in config["blade"]:
+    if config.blade.plugged("source") is None:
         yield from _neighbours(config, row)
 
 
 def _neighbours(config: Config, row: Row) -> Iterator[str]:
     """Check what a row asks of the distance of its blades, at the largest radius of the tip."""
-    contact, blade, n_elements = config["contact"], config["blade"], config["contact"]["elements"]
-    turn = 2 * np.pi * (blade["hub_radius"] + blade["length"])
-    moved = config["solver"]["displacement_limit"] * blade["length"] / turn * n_elements
-    fewest = math.ceil(2 * (contact["tip_profile"]["half_width"] + moved)) + 4
+    contact, blade, n_elements = config.contact, config.blade, config.contact.elements
+    turn = 2 * np.pi * (blade.hub_radius + blade.length)
+    moved = config.solver.displacement_limit * blade.length / turn * n_elements
+    fewest = math.ceil(2 * (contact.tip_profile.half_width + moved)) + 4
     starts = sorted(int(neighbour.angle / (2 * np.pi) % 1 * n_elements) for neighbour in row.blades)
     nearest = min(np.diff([*starts, starts[0] + n_elements]))
     if len(starts) > 1 and nearest < fewest:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from bladerub.api.blade import Blade
     from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
+    from bladerub.settings.study import Config
 
 _SETTINGS = ("length_scatter", "frequency_scatter", "coupling", "seed")
 _OF_BLADES = {
@@ -42,7 +43,7 @@ class RowOption(RunOption):
         parser.option("--coupling", text, float, metavar="C")
         parser.option("--seed", "of the draws of the blades, 0 or more (default 1)", int, metavar="N")
 
-    def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
+    def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Convert the scatters; refuse settings without blades, and numbers that cannot be."""
         from bladerub.config.quantities import key_at, references
 

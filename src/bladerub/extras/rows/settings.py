@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import Metre, Number, Omitted, Radian, Section, Seed
+from bladerub.settings.fields import Metre, Number, Omitted, Radian, Section, Seed
 
 _SOME = Field(None, min_length=1, max_length=200)
 

@@ -1,6 +1,6 @@
 """Rows of blades as runs of a study (`bladerub.study.solver`)."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -12,24 +12,27 @@ from bladerub.contact.spec import RunSpec
 from bladerub.extras.rows.result import RowResult
 from bladerub.extras.rows.spec import Disk, Row
 from bladerub.io import sources
+from bladerub.settings.analysis import Analysis
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.study.store import StoredRun, stored_run
 
 
-def described(config: Mapping[str, Any]) -> Row:
+def described(config: Config) -> Row:
     """Describe the row that the block ``rotor`` of the study `config` is of.
 
     Raises `ValueError` if a list has neither one value nor one for each blade.
     """
-    rotor = config["rotor"]
-    n_blades = rotor["blades"]
-    scatters = (float(rotor.get(f"{name}_scatter", 0.0)) for name in ("length", "frequency"))
-    drawn = Row.drawn(n_blades, rotor.get("seed", 1), *scatters).blades
+    rotor = config.rotor
+    scatters = rotor.length_scatter or 0.0, rotor.frequency_scatter or 0.0
+    drawn = Row.drawn(rotor.blades, 1 if rotor.seed is None else rotor.seed, *scatters).blades
     row = Row.even(
-        n_blades,
-        **{name: rotor.get(name, 0.0) for name in ("length", "frequency", "angle_error")},
-        damping=rotor.get("damping", 1.0),
-        disk=Disk.ring(n_blades, rotor["coupling"]) if "coupling" in rotor else None,
+        rotor.blades,
+        length=rotor.length or 0.0,
+        frequency=rotor.frequency or 0.0,
+        angle_error=rotor.angle_error or 0.0,
+        damping=rotor.damping or 1.0,
+        disk=Disk.ring(rotor.blades, rotor.coupling) if rotor.coupling else None,
     )
     blades = (
         replace(blade, length=blade.length + draw.length, frequency=blade.frequency + draw.frequency)
@@ -66,7 +69,7 @@ def compute(
     case: CoatingCase,
     spec: RunSpec,
     key: str,
-    analysis: Mapping[str, Any],
+    analysis: Analysis,
     keep_history: bool,
     progress: Callable[[int], None] | None = None,
 ) -> StoredRun:
@@ -88,11 +91,11 @@ def _stored(
     row: Row,
     result: RowResult,
     run_key: str,
-    analysis: Mapping[str, Any],
+    analysis: Analysis,
     keep_history: bool,
 ) -> StoredRun:
     """Take from the outcome of a row what is stored of it, see `compute`."""
-    last = slice(-analysis["spectrum_revolutions"], None)
+    last = slice(-analysis.spectrum_revolutions, None)
     amplitude = _largest(blade.revolution_amplitude[last] for blade in result.blades)
     unbounded = np.isin(np.arange(1, len(row.blades) + 1), result.unbounded)
     strongest = int(np.argmax(np.where(unbounded == unbounded.any(), np.nan_to_num(amplitude), -1.0)))

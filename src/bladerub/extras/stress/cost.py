@@ -3,10 +3,9 @@
 import statistics
 import tempfile
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from threadpoolctl import threadpool_limits
 
@@ -17,6 +16,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.extras.stress.run import BladeStress
 from bladerub.extras.study_runs import study_runs
 from bladerub.io.provenance import provenance
+from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec
 from bladerub.study.job import compute
 from bladerub.study.plan import planned_run
@@ -27,16 +27,16 @@ DRAWN = 24
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # as in the jobs of the study
-def cost_of_stress(mesh: str | Path, blade: ReducedBlade, config: Mapping[str, Any], rounds: int) -> float:
+def cost_of_stress(mesh: str | Path, blade: ReducedBlade, config: Config, rounds: int) -> float:
     """Return the CPU time of runs of the study with their stress, over that without.
 
     Each is set up, integrated and stored as the study does it. The median of so many `rounds` counts, of
     which one without effect comes first. `mesh` is the ``mesh.h5`` of the blade. Raises `BadInput` where it
     is of matrices alone.
     """
-    stress, last = BladeStress(mesh, blade), config["analysis"]["spectrum_revolutions"]
+    stress, last = BladeStress(mesh, blade), config.analysis.spectrum_revolutions
     runs = study_runs(config)
-    drawn, origin = runs[:: max(1, len(runs) // DRAWN)], provenance(config)
+    drawn, origin = runs[:: max(1, len(runs) // DRAWN)], provenance(config.plain())
 
     def stressed(blade: ReducedBlade, spec: RunSpec, progress: None) -> RunResult:
         return stress.of_run(spec, last)[0]
@@ -45,7 +45,7 @@ def cost_of_stress(mesh: str | Path, blade: ReducedBlade, config: Mapping[str, A
         start = time.thread_time()  # other processes and threads do not count
         for number, run in enumerate(drawn):
             planned = planned_run(config, run_spec(config, run.case, run.f_omega), f"{number}.h5", False)
-            stored = compute(run.case, planned, blade, "", config["analysis"], solve=solve)
+            stored = compute(run.case, planned, blade, "", config.analysis, solve=solve)
             write_run(folder / planned.file, stored, origin)
         return time.thread_time() - start
 

@@ -11,8 +11,9 @@ from scipy.interpolate import CubicSpline
 from skfem import Basis
 from skfem.quadrature import get_quadrature
 
-from bladerub.blade.elasticity import Material
+from bladerub.blade.elasticity import lame
 from bladerub.blade.mesh import MeshHexS2, solid_mesh
+from bladerub.settings.blade import Material
 
 
 class NodalStress:
@@ -43,7 +44,7 @@ class NodalStress:
 
         NaN at nodes of no element.
         """
-        lam, mu = self._material.lame
+        lam, mu = lame(self._material)
         F_transposed = np.swapaxes(self._F, -1, -2)
         E = self._strain + _symmetric(F_transposed @ self._gradient(displacement))
         S = lam * np.trace(E, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) + 2 * mu * E

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from bladerub.blade.elasticity import Material
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import mode_shapes_at
 from bladerub.contact.result import RunResult
@@ -19,6 +18,7 @@ from bladerub.extras.stress.peak import ModalStress, static_peak, stress_peaks, 
 from bladerub.extras.stress.sampling import SampledRun, simulate_sampled
 from bladerub.io import hdf5
 from bladerub.io.errors import BadInput
+from bladerub.settings.blade import Material
 
 INSTANTS = 200
 """A revolution; ten times as many raise the largest von Mises stress by up to 2 %."""
@@ -64,7 +64,7 @@ def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
     mesh, attributes = hdf5.read(path)
     if not len(mesh["cells"]):
         return None
-    material = Material.from_config(json.loads(attributes["made_from"])["blade"]["material"])
+    material = Material.model_validate(json.loads(attributes["made_from"])["blade"]["material"])
     running = running_displacement(mesh["f_omega"], mesh["static_displacement"], f_omega)
     return NodalStress(mesh["points"], mesh["cells"], material, running)
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from bladerub.api.blade import Blade
     from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
+    from bladerub.settings.study import Config
 
 _PARTS = {"static": "rotation alone", "start_up": "start-up", "last": "last revolutions"}
 _KINDS = {"von_mises": "von Mises", "principal": "largest principal", "alternating": "alternating"}
@@ -28,9 +29,9 @@ class StressOption(RunOption):
         text = "find the largest stress of the blade too, at start-up and in the last revolutions"
         parser.add_argument("--stress", action="store_true", help=text)
 
-    def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
+    def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Refuse the stress of rows."""
-        if options.stress and (getattr(options, "blades", None) is not None or config.get("rotor")):
+        if options.stress and (getattr(options, "blades", None) is not None or config.plugged("rotor")):
             raise BadInput(
                 "--stress: is of a single blade; not with --blades or the block rotor of the config"
             )

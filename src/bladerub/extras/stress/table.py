@@ -1,14 +1,13 @@
 """Table of the largest stress of the blade at the peaks of the study."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.extras.stress.run import BladeStress, RunStress
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 
 _CASE = ("casing", "E", "K", "theta", "law")
@@ -21,9 +20,7 @@ COLUMNS += [f"last_{name}" for name in _OF_LAST]
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # the products are small
-def table(
-    mesh: str | Path, blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame
-) -> pd.DataFrame:
+def table(mesh: str | Path, blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
     """Find the stress of the run at each of the `peaks`, a table ``peaks.csv``: a row each, with `COLUMNS`.
 
     `mesh` is the ``mesh.h5`` of the blade. Raises `BadInput` where it is of matrices alone, which tell of no
@@ -32,7 +29,7 @@ def table(
     stress, rows = BladeStress(mesh, blade), []
     for peak in peaks.dropna(subset=["f_peak"]).to_dict("records"):
         spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])
-        result, run_stress = stress.of_run(spec, config["analysis"]["spectrum_revolutions"])
+        result, run_stress = stress.of_run(spec, config.analysis.spectrum_revolutions)
         rows.append(
             {name: peak[name] for name in (*_CASE, *_PEAK)}
             | {"status": result.status}

@@ -4,13 +4,15 @@ import copy
 import itertools
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value
+from bladerub.config.errors import UNKNOWN, ConfigError, Location
 from bladerub.config.files import Located
 from bladerub.config.problems import is_number
+from bladerub.io.errors import format_value
+from bladerub.settings.study import Config
 
 
 @dataclass(frozen=True)
@@ -29,9 +31,9 @@ class Factor:
         """Lowest and highest value of the first number that it sets, which stands for all."""
         return next(iter(self.ranges.values()))
 
-    def own(self, config: Mapping[str, Any]) -> float:
+    def own(self, config: Config) -> float:
         """Return the value that a config has of the first number."""
-        value = config
+        value: Any = config.plain()
         for key in _keys(next(iter(self.ranges))):
             value = value[key]
         return float(value)

@@ -24,6 +24,7 @@ from bladerub.extras.variations.targets import measure
 from bladerub.extras.variations.waves import known
 from bladerub.io import lock, tables
 from bladerub.io.provenance import config_digest, provenance
+from bladerub.settings.study import Config, typed
 from bladerub.study.grid import coating_cases, speeds
 
 VERDICTS = ["set", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
@@ -45,7 +46,7 @@ class Case(NamedTuple):
     part: Part
     config: Located  # values not checked
 
-    def checked(self) -> dict[str, Any]:
+    def checked(self) -> Config:
         """Return the config; raises `ConfigError` if the values make no study together."""
         is_listed = self.set == self.part.name
         name = self.part.name if is_listed else f"parts.{self.part.name}, set {self.set}"
@@ -61,7 +62,7 @@ class Judged(NamedTuple):
 
 
 def cases(
-    study: Mapping[str, Any], plan: Plan, job: Job, positions: Mapping[str | int, np.ndarray | None]
+    study: Config, plan: Plan, job: Job, positions: Mapping[str | int, np.ndarray | None]
 ) -> list[Case]:
     """Make the config of each small study of a job, from the `study` that is varied.
 
@@ -78,7 +79,7 @@ def cases(
 
 # Threads take longer than the splines of a blade's sections
 @threadpool_limits.wrap(limits=1, user_api="blas")
-def check(study: Mapping[str, Any], plan: Plan) -> None:
+def check(study: Config, plan: Plan) -> None:
     """Check every set whose position the plan has; raises `ConfigError`, naming part and set.
 
     The problems of all sets that are listed are reported together, of those that are drawn the first.
@@ -100,7 +101,7 @@ def check(study: Mapping[str, Any], plan: Plan) -> None:
         raise ConfigError(problems)
 
 
-def determinants(study: Mapping[str, Any], plan: Plan, job: Job) -> list[Any]:
+def determinants(study: Config, plan: Plan, job: Job) -> list[Any]:
     """Return what determines the results of a job but code: a change is a reason to run it.
 
     Sets whose positions the plan does not have stand there with the study's own values, beside the factors.
@@ -108,28 +109,28 @@ def determinants(study: Mapping[str, Any], plan: Plan, job: Job) -> list[Any]:
     positions = known(plan) or dict.fromkeys(job.sets)
     factors = [] if known(plan) else [(f.name, f.ranges, f.logarithmic, f.multiple_of) for f in plan.factors]
     digests = [
-        (case.set, case.part.claims, digest(case.config.plain()))
+        (case.set, case.part.claims, digest(typed(case.config.plain())))
         for case in cases(study, plan, job, positions)
     ]
     return [*digests, *factors]
 
 
-def digest(config: Mapping[str, Any]) -> str:
+def digest(config: Config) -> str:
     """Digest those parts of its config that determine what a small study shows."""
     used = {case.casing for case in coating_cases(config)}
-    determining = {key: config[key] for key in _DETERMINING}
-    determining["casings"] = {name: config["casings"][name] for name in sorted(used)}
-    return config_digest(determining)
+    values = config.plain()
+    casings = {name: values["casings"][name] for name in sorted(used)}
+    return config_digest({key: values[key] for key in _DETERMINING} | {"casings": casings})
 
 
-def minutes(study: Mapping[str, Any], plan: Plan, job: Job) -> int:
+def minutes(study: Config, plan: Plan, job: Job) -> int:
     """Return the time to ask a cluster for: a minute a set, and three times what the revolutions took."""
     revolutions = 0.0
     for case in cases(study, plan, job, known(plan) or dict.fromkeys(job.sets)):
-        config = case.config.plain()
+        config = typed(case.config.plain())
         runs = len(coating_cases(config)) * len(speeds(config))
-        scale = config["contact"]["elements"] / study["contact"]["elements"]
-        revolutions += runs * config["solver"]["revolutions"] * scale
+        scale = config.contact.elements / study.contact.elements
+        revolutions += runs * config.solver.revolutions * scale
     return math.ceil(1 + len(job.sets) + 0.03 * revolutions / 60)
 
 
@@ -157,7 +158,8 @@ def judge(
             measured = measure(study.evidence, case.part.claims)
             quantities += [(case.set, name, value) for name, value in measured.items()]
         for name in ("peaks", "divergence") if folder else ():
-            tables.write(Path(folder) / "tables" / f"{name}.csv", getattr(study, name), provenance(config))
+            path, origin = Path(folder) / "tables" / f"{name}.csv", provenance(config.plain())
+            tables.write(path, getattr(study, name), origin)
     return Judged(
         pd.concat(verdicts, ignore_index=True),
         pd.DataFrame(quantities, columns=QUANTITIES),
@@ -165,13 +167,13 @@ def judge(
     )
 
 
-def blade_of(config: Mapping[str, Any], blades: str | Path, report: Callable[[object], None]) -> Path:
+def blade_of(config: Config, blades: str | Path, report: Callable[[object], None]) -> Path:
     """Return the file of the reduced blade of `config`, in a folder of `blades`; built if it is not there."""
     folder = Path(blades) / kept_at(config).parent.name
     model = folder / "reduced_model.h5"
     with lock.held(folder / ".lock", lambda: report(f"another job builds the blade in {folder}")):
         if not model.exists():
-            write(build(config), provenance(config), *paths(model))
+            write(build(config), provenance(config.plain()), *paths(model))
     return model
 
 
@@ -181,6 +183,6 @@ def read(paths: Iterable[str | Path], columns: list[str]) -> pd.DataFrame:
     return pd.concat([job for job in jobs if len(job)] or jobs[:1], ignore_index=True)
 
 
-def _varied(study: Mapping[str, Any], plan: Plan, part: Part, position: np.ndarray | None) -> Located:
+def _varied(study: Config, plan: Plan, part: Part, position: np.ndarray | None) -> Located:
     varied = configuration.vary(study, *part.study)
     return varied if position is None else lay_over(varied, plan.factors, position)

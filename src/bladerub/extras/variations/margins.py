@@ -4,16 +4,17 @@ Nothing is simulated. Each variation drops speeds, Young moduli or plastic modul
 peaks through another window; then every claim is judged as in the study.
 """
 
-import copy
 import logging
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
+from operator import attrgetter
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
+from bladerub.settings.study import Config
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import SAME_SPEED, SPEED_DECIMALS, speeds
@@ -27,14 +28,14 @@ STUDY = "study"
 """Name of the variation that changes nothing."""
 
 SETTINGS = {
-    "window 0.90 to 1.20": ("peaks", "speed_window", [0.9, 1.2]),
-    "window 0.75 to 1.50": ("peaks", "speed_window", [0.75, 1.5]),
-    "window from the crossing": ("peaks", "speed_window", [1.0, 1.35]),  # contact can but stiffen
-    "line of the order alone": ("peaks", "order_halfwidth", 0.0),
-    "half an order each side": ("peaks", "order_halfwidth", 0.5),
-    "growth above 2 %": ("divergence", "growth", 0.02),
+    "window 0.90 to 1.20": ("peaks.speed_window", [0.9, 1.2]),
+    "window 0.75 to 1.50": ("peaks.speed_window", [0.75, 1.5]),
+    "window from the crossing": ("peaks.speed_window", [1.0, 1.35]),  # contact can but stiffen
+    "line of the order alone": ("peaks.order_halfwidth", 0.0),
+    "half an order each side": ("peaks.order_halfwidth", 0.5),
+    "growth above 2 %": ("divergence.growth", 0.02),
 }
-"""Other values in ``config["analysis"]``: where a peak is looked for, how wide an order is, what grows."""
+"""Other values in ``config.analysis``: where a peak is looked for, how wide an order is, what grows."""
 
 PROMINENCES = (0.05, 0.2)
 """Other values of ``analysis.lobe_prominence``: what counts as a lobe."""
@@ -46,28 +47,26 @@ _log = logging.getLogger(__name__)
 class Variation(NamedTuple):
     """The study's config with another window or threshold, or its maps with fewer coatings or speeds."""
 
-    config: dict[str, Any]
+    config: Config
     maps: list[CoatingMap]
 
 
-def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[str, Variation]:
+def variations(config: Config, maps: Iterable[CoatingMap]) -> dict[str, Variation]:
     """List the variations of the study of these `maps` by name, `STUDY` first."""
-    maps, config = [coating for coating in maps if not coating.case.variant], dict(config)
+    maps = [coating for coating in maps if not coating.case.variant]
     varied = {STUDY: Variation(config, maps)}
     if _even_speeds(config, 1).size < len(speeds(config)):
         varied["even speeds only"] = Variation(config, _at(maps, _even_speeds(config, 1)))
     for every in (2, 4):
-        step = every * config["speeds"]["step"]
+        step = every * config.speeds.step
         varied[f"speed step {step:g}"] = Variation(config, _at(maps, _even_speeds(config, every)))
-    for name, (part, key, value) in SETTINGS.items():
-        study_value = config["analysis"][part][key]
+    for name, (key, value) in SETTINGS.items():
+        study_value = attrgetter(key)(config.analysis)
         # below the study's threshold of growth there are no longer runs to judge by
-        if value != study_value and (key != "growth" or value > study_value):
-            changed = copy.deepcopy(config)
-            changed["analysis"][part][key] = value
-            varied[name] = Variation(changed, maps)
+        if value != study_value and (key != "divergence.growth" or value > study_value):
+            varied[name] = Variation(config.replaced(f"analysis.{key}", value), maps)
     for prominence in PROMINENCES:
-        if prominence != config["analysis"]["lobe_prominence"]:
+        if prominence != config.analysis.lobe_prominence:
             counted = [_with_lobes(coating, prominence) for coating in maps]
             varied[f"lobes above {100 * prominence:g} %"] = Variation(config, counted)
     for modulus in ("E", "K"):
@@ -80,13 +79,10 @@ def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[st
     return varied
 
 
-def _even_speeds(config: Mapping[str, Any], every: int) -> np.ndarray:
+def _even_speeds(config: Config, every: int) -> np.ndarray:
     """Return each `every`-th of the even speeds, and those whose displacement is kept: claims name them."""
-    grid = config["speeds"]
-    even = speeds({**config, "speeds": {**grid, "extra": []}})[::every]
-    history_speeds = [
-        round(float(entry["f_omega"]), SPEED_DECIMALS) for entry in config["analysis"]["histories"]
-    ]
+    even = speeds(config.replaced("speeds.extra", []))[::every]
+    history_speeds = [round(entry.f_omega, SPEED_DECIMALS) for entry in config.analysis.histories]
     return np.union1d(even, history_speeds)
 
 
@@ -107,9 +103,7 @@ def _with_lobes(coating: CoatingMap, prominence: float) -> CoatingMap:
     return replace(coating, lobes=counted)
 
 
-def table(
-    config: Mapping[str, Any], map_paths: Iterable[str | Path], rom_accuracy_path: str | Path
-) -> pd.DataFrame:
+def table(config: Config, map_paths: Iterable[str | Path], rom_accuracy_path: str | Path) -> pd.DataFrame:
     """Judge every claim in every variation of the study with these files: a row each, with `COLUMNS`.
 
     A claim that cannot be judged has no row; the log says so.

@@ -10,16 +10,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from bladerub.config import files
-from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value
+from bladerub.config.errors import UNKNOWN, ConfigError, Location
 from bladerub.config.files import Located
 from bladerub.extras import plans
 from bladerub.extras.variations.factors import Factor, read_factors
 from bladerub.extras.variations.settings import CalibrationPlan, IdentificationPlan, RobustnessPlan
+from bladerub.io.errors import format_value
+from bladerub.settings.study import Config
 
 REFERENCE = -1
 """Number of the sample of a robustness that has the study's own values."""
@@ -107,7 +109,7 @@ class Plan:
             for name, sets in _batches(self.first(wave), self.size(wave), _SETS).items()
         }
 
-    def listed(self, study: Mapping[str, Any]) -> np.ndarray:
+    def listed(self, study: Config) -> np.ndarray:
         """Return the positions of the study's own values, then of the listed sets, (1 + n_sets, d)."""
         reference = [factor.position(factor.own(study)) for factor in self.factors]
         rows = [reference]

@@ -99,7 +99,7 @@ def _refined_maximum(f_omega: np.ndarray, values: np.ndarray) -> tuple[float, fl
 def _peak(evidence: Evidence, case: CoatingCase, order: int) -> tuple[float, float]:
     """Return speed and amplitude (m) of the peak of an order, both between the speeds of the grid."""
     coating = evidence.map(case)
-    amplitude = amplitude_in_window(coating, order, evidence.config["analysis"]["peaks"])
+    amplitude = amplitude_in_window(coating, order, evidence.config.analysis.peaks)
     return _refined_maximum(coating.f_omega, amplitude)
 
 
@@ -113,7 +113,7 @@ def _dominance(evidence: Evidence, case: CoatingCase, inside: np.ndarray, harmon
         raise NotMeasurable(f"{case.name} has no run at these speeds")
     power = np.abs(np.fft.rfft(evidence.map(case).wear[inside])[:, 1:]) ** 2
     share = power / np.maximum(power.sum(axis=1, keepdims=True), np.finfo(float).tiny)
-    aside = {harmonic, *evidence.config["casings"][case.casing]["nodal_diameters"]}
+    aside = {harmonic, *evidence.config.casings[case.casing].nodal_diameters}
     others = np.delete(share, [number - 1 for number in aside], axis=1)
     return share[:, harmonic - 1] - others.max(axis=1)
 
@@ -138,7 +138,7 @@ def _vibration_offset(order: int, speed: float) -> Callable[[Evidence], float]:
     def offset(evidence: Evidence) -> float:
         coating = evidence.map(WORN)
         window = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
-        halfwidth = evidence.config["analysis"]["peaks"]["order_halfwidth"]
+        halfwidth = evidence.config.analysis.peaks.order_halfwidth
         amplitude = order_amplitude(coating, order, halfwidth)
         vibration = _refined_maximum(coating.f_omega[window], amplitude[window])[0]
         return vibration - _wear_maximum(evidence, speed)
@@ -216,8 +216,8 @@ def _growth_at(case: CoatingCase, speed: float | CoatingCase) -> Callable[[Evide
         coating, index = _run(evidence, case, speed)
         if coating.status[index] == "unbounded":
             return _GREATEST_GROWTH
-        settings = evidence.config["analysis"]["divergence"]
-        excess = growth(coating.revolution_amplitude[index], settings).per_revolution - settings["growth"]
+        settings = evidence.config.analysis.divergence
+        excess = growth(coating.revolution_amplitude[index], settings).per_revolution - settings.growth
         return float(np.clip(excess, -_GREATEST_GROWTH, _GREATEST_GROWTH))
 
     return beyond_limit

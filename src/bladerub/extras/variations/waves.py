@@ -6,7 +6,7 @@ Sobol sequence), those of later waves over what is left.
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -16,6 +16,7 @@ from scipy.stats import qmc
 from bladerub.extras.variations.implausibility import CUTOFF, predicted, without
 from bladerub.extras.variations.plan import REFERENCE, Plan
 from bladerub.io.tables import read as read_table
+from bladerub.settings.study import Config
 
 if TYPE_CHECKING:
     from bladerub.extras.variations.emulator import Emulator
@@ -58,7 +59,7 @@ def known(plan: Plan) -> dict[str | int, np.ndarray | None]:
     return {REFERENCE: None, **dict(enumerate(design(plan)))} if plan.factors else dict.fromkeys(plan.parts)
 
 
-def first(plan: Plan, study: Mapping[str, Any]) -> np.ndarray:
+def first(plan: Plan, study: Config) -> np.ndarray:
     """Return the positions (n, d) of the first wave: the study's own, the given ones, a Sobol sequence."""
     return np.vstack([plan.listed(study), design(plan)])
 

@@ -9,6 +9,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.extras.verification.differences import Differences
 from bladerub.extras.verification.response import CASE_COLUMNS
 from bladerub.extras.verification.verify import StudyRun, VerifiedRun, draw, verify_runs
+from bladerub.settings.study import Config
 
 DRAWS = {"all": [(1, 40), (2, 40), (3, 40)], "important": [(1, 100)]}
 """Seeds of the draws and numbers of runs, from all of the study and from those that claims rest on."""
@@ -24,7 +25,7 @@ COLUMNS = [
 
 def table(
     blade: ReducedBlade,
-    config: Mapping[str, Any],
+    config: Config,
     candidates: Mapping[str, Sequence[StudyRun]],
     report: Callable[[object], None] = lambda line: None,
 ) -> pd.DataFrame:

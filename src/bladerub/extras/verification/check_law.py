@@ -7,6 +7,7 @@ from typing import Any
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
 from bladerub.extras.law_options import add_law_parameters_to, law_parameters
+from bladerub.extras.law_reading import law_of
 from bladerub.extras.law_settings import law_entry
 from bladerub.io.errors import BadInput
 
@@ -39,10 +40,10 @@ def check_law(options: argparse.Namespace) -> int:
     values = law_parameters("--parameter", options.parameter)
 
     from bladerub.extras.verification.element_law import check_law as check
-    from bladerub.study.grid import coating_cases, element_law, run_spec
+    from bladerub.study.grid import coating_cases, run_spec
 
     with refused(ValueError):
-        law = element_law({"contact": {"law": law_entry(options.law, values)}})
+        law = law_of(law_entry(options.law, values))
     cases = [case for case in coating_cases(config) if not case.is_rigid]
     if not cases:
         raise BadInput("coatings: have no abradable layer; a law needs one")

@@ -10,6 +10,7 @@ from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
     from bladerub.extras.verification.verify import StudyRun
+    from bladerub.settings.study import Config
 
 _MEASURES = {"wear_l2": "wear (L2)", "peak": "spectral peak", "revolution_peak": "revolution peak"}
 _STATISTICS = {"median": "median", "p95": "95 %", "max": "worst"}
@@ -59,12 +60,12 @@ def verify(options: argparse.Namespace) -> None:
     if options.rows:
         runs = _rows(config, options.rows)
     elif options.peaks:
-        runs = important_runs(config, inputs.study_folder() / config["results"] / "maps")
+        runs = important_runs(config, inputs.study_folder() / config.results / "maps")
     else:
         runs = study_runs(config)
     with refused(ValueError, because=f"--sample = {options.sample}: "):
         runs = draw(runs, options.sample, options.seed)
-    blade = inputs.read_blade(options, config)
+    blade, config = inputs.read_blade(options, config)
     fastest = max(run.f_omega for run in runs)
     if fastest > blade.reduced.f_omega_max:
         raise BadInput(
@@ -78,7 +79,7 @@ def verify(options: argparse.Namespace) -> None:
     inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | report(verified), _in_words)
 
 
-def _rows(config: dict[str, Any], path: Path) -> "list[StudyRun]":
+def _rows(config: "Config", path: Path) -> "list[StudyRun]":
     """List every row of the plan at `path`."""
     from bladerub.extras.rotor.plan import read_plan
     from bladerub.extras.verification.verify import StudyRun

@@ -1,12 +1,13 @@
 """How much two outcomes of the same run differ."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from bladerub.contact.result import RunResult
+from bladerub.settings.analysis import Analysis
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.summary import spectral_peak
 
@@ -24,9 +25,9 @@ UNBOUNDED = Differences(math.inf, math.inf, math.inf)
 
 
 def differences(
-    outcome: Sequence[RunResult], reference: Sequence[RunResult], analysis: Mapping[str, Any]
+    outcome: Sequence[RunResult], reference: Sequence[RunResult], analysis: Analysis
 ) -> Differences:
-    """Compare two outcomes of the same run, of each blade of a row; ``config["analysis"]`` has the spectrum.
+    """Compare two outcomes of the same run, of each blade of a row; ``config.analysis`` has the spectrum.
 
     A difference is 0 where both are zero, infinite where only the reference is; all are infinite if either
     run is unbounded. The largest of a peak's differences over the blades is related to the largest of their
@@ -53,12 +54,12 @@ def largest(several: Iterable[Differences]) -> Differences:
     return Differences(*map(max, zip(*several, strict=True)))
 
 
-def _peak(result: RunResult, analysis: Mapping[str, Any]) -> float:
+def _peak(result: RunResult, analysis: Analysis) -> float:
     order, amplitude = order_spectrum(
         result.radial_displacement,
         result.revolution_peak.size,
-        analysis["spectrum_revolutions"],
-        analysis["max_order"],
+        analysis.spectrum_revolutions,
+        analysis.max_order,
     )
     return spectral_peak(order, amplitude)[1]
 

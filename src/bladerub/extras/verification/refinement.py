@@ -8,7 +8,6 @@ Blades with more nodes have the same mesh, which is finer along the chord than t
 find even places. More nodes give the reduced model more static modes of the tip as well.
 """
 
-import copy
 import math
 import time
 from collections.abc import Callable, Mapping
@@ -27,6 +26,7 @@ from bladerub.contact.setup import compile_kernel, fixed_steps
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.strips import strip_width
 from bladerub.extras.verification.response import CASE_COLUMNS, Response, listed
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, element_law, run_spec
 
 REFINEMENTS = (1, 2, 4)
@@ -48,13 +48,13 @@ class Model(NamedTuple):
     change: Callable[[RunSpec], RunSpec] = lambda spec: spec
 
 
-def finer_bars(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
+def finer_bars(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
     """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with finer bars.
 
     A row for each peak and number of bars: see `compared`.
     """
     models = {
-        config["contact"]["elements"] * times: Model(
+        config.contact.elements * times: Model(
             blade, partial(_under_bars, times=times), partial(with_finer_bars, blade, times=times)
         )
         for times in REFINEMENTS
@@ -62,7 +62,7 @@ def finer_bars(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFra
     return compared("elements", models, config, peaks)
 
 
-def more_nodes(config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
+def more_nodes(config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
     """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with more interface nodes.
 
     A row for each peak and number of nodes: see `compared`. ``cpu_s`` are the seconds of the run at the
@@ -79,9 +79,7 @@ def more_nodes(config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def compared(
-    column: str, models: Mapping[int, Model], config: Mapping[str, Any], peaks: pd.DataFrame
-) -> pd.DataFrame:
+def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
     """Find peaks with each of some models, by the number that `column` has; the first is the study's.
 
     A row for each of the peaks that `listed` takes and each model: the peak to which the response rises from
@@ -121,13 +119,11 @@ def with_finer_bars(blade: ReducedBlade, spec: RunSpec, times: int) -> RunSpec:
     )
 
 
-def blade_with(config: Mapping[str, Any], n: int) -> ReducedBlade:
+def blade_with(config: Config, n: int) -> ReducedBlade:
     """Build the blade of `config` with `n` interface nodes, and compile the time loop for them."""
-    varied = copy.deepcopy({name: config[name] for name in ("blade", "reduction")})
-    varied["blade"]["mesh"] = {**varied["blade"]["mesh"], "chordwise": CHORDWISE, "thickness": 2}
-    varied["reduction"]["interface_nodes"] = n
+    varied = config.replaced("blade.mesh.chordwise", CHORDWISE).replaced("blade.mesh.thickness", 2)
     compile_kernel(n_nodes=n, law=element_law(config))
-    return build(varied).reduced
+    return build(varied.replaced("reduction.interface_nodes", n)).reduced
 
 
 def _under_bars(run: RunResult, times: int) -> np.ndarray:
@@ -140,7 +136,7 @@ def _along_chord(blade: ReducedBlade, run: RunResult) -> np.ndarray:
     return np.average(run.wear, axis=0, weights=strip_width(blade))
 
 
-def _seconds(blade: ReducedBlade, config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> float:
+def _seconds(blade: ReducedBlade, config: Config, case: CoatingCase, f_omega: float) -> float:
     start = time.process_time()
     simulate(blade, run_spec(config, case, f_omega))
     return time.process_time() - start

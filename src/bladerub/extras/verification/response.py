@@ -1,6 +1,6 @@
 """Response of a coating on one engine order, by runs made when they are asked for."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,8 @@ from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.verification.impact import Motion
+from bladerub.settings.analysis import Analysis
+from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.spectra import order_spectrum
 
@@ -30,15 +32,15 @@ def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
     return [pair for pair in described if pair[0] in CASES] or described
 
 
-def amplitude_on(order: float, run: RunResult | Motion, analysis: Mapping[str, Any]) -> float:
+def amplitude_on(order: float, run: RunResult | Motion, analysis: Analysis) -> float:
     """Return the amplitude of a run on an engine order, m, as in `bladerub.study.peaks`."""
     orders, amplitude = order_spectrum(
         run.radial_displacement,
         run.revolution_peak.size,
-        analysis["spectrum_revolutions"],
-        analysis["max_order"],
+        analysis.spectrum_revolutions,
+        analysis.max_order,
     )
-    window = np.abs(orders - order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
+    window = np.abs(orders - order) <= analysis.peaks.order_halfwidth + 1e-9
     return float(amplitude[window].max())
 
 
@@ -48,7 +50,7 @@ class Response:
     def __init__(
         self,
         blade: ReducedBlade,
-        config: Mapping[str, Any],
+        config: Config,
         case: CoatingCase,
         order: float,
         change: Callable[[RunSpec], RunSpec] = lambda spec: spec,
@@ -65,7 +67,7 @@ class Response:
 
     def amplitude(self, f_omega: float) -> float:
         """Amplitude on the engine order, m."""
-        return amplitude_on(self.order, self.run(f_omega), self.config["analysis"])
+        return amplitude_on(self.order, self.run(f_omega), self.config.analysis)
 
     def top(self, f_omega: float) -> float:
         """Speed of the study at which the amplitude, rising from `f_omega` on, is greatest."""

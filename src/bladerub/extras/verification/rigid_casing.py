@@ -6,7 +6,7 @@ own. Here some runs of the study are repeated with each of them changed.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -23,6 +23,8 @@ from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import with_steps
 from bladerub.extras.verification import impact
 from bladerub.extras.verification.response import amplitude_on
+from bladerub.settings.analysis import Analysis
+from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec, speeds
 from bladerub.study.paper import RIGID
 
@@ -68,7 +70,7 @@ COLUMNS = [
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
-def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
+def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
     """Repeat runs of the study on the rigid casing: a row for each speed and alternative, with `COLUMNS`.
 
     `peaks` is a table ``peaks.csv``, of which the peaks of the rigid casing are looked at.
@@ -80,7 +82,7 @@ def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -
             if (alternative.modes or 0) >= modes.omega.size:
                 continue
             outcome, steps = _simulate(blade, spec, modes, alternative)
-            measures = _measures(outcome, order, config["analysis"])
+            measures = _measures(outcome, order, config.analysis)
             study_amplitude = measures["amplitude"] if alternative == OWN else study_amplitude
             n_modes = alternative.modes or modes.omega.size
             complete = alternative.treatment == "massless" or (
@@ -93,9 +95,7 @@ def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
-def _listed(
-    config: Mapping[str, Any], peaks: pd.DataFrame
-) -> Iterator[tuple[float, float, tuple[Alternative, ...]]]:
+def _listed(config: Config, peaks: pd.DataFrame) -> Iterator[tuple[float, float, tuple[Alternative, ...]]]:
     """List speed, engine order and alternatives."""
     yield *PLAIN_SPEED, ALTERNATIVES
     grid = np.array(speeds(config))
@@ -125,11 +125,9 @@ def _simulate(
     return impact.simulate(rule, blade, spec), steps
 
 
-def _measures(
-    outcome: impact.Motion | run.RunResult, order: float, analysis: Mapping[str, Any]
-) -> dict[str, float]:
+def _measures(outcome: impact.Motion | run.RunResult, order: float, analysis: Analysis) -> dict[str, float]:
     """Measure the last revolutions of a run, those of the study's spectra, m."""
-    last = analysis["spectrum_revolutions"]
+    last = analysis.spectrum_revolutions
     return {
         "amplitude": amplitude_on(order, outcome, analysis),
         "largest_revolution": float(outcome.revolution_amplitude[-last:].max()),

@@ -1,7 +1,7 @@
 """Steps and error of runs at several tolerances of the step, and with one step for all coatings."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import astuple, replace
 from typing import Any
 
@@ -16,6 +16,7 @@ from bladerub.contact.strips import element_passage
 from bladerub.extras.verification.differences import differences, largest
 from bladerub.extras.verification.response import CASE_COLUMNS
 from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, TOLERANCE, StudyRun
+from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
 TOLERANCES = (0.1, 0.03, 0.01, 0.003)
@@ -38,7 +39,7 @@ COLUMNS = [
 """Columns of ``steps.csv``; the tolerance of `UNIFORM` is empty."""
 
 
-def draw(config: Mapping[str, Any]) -> list[StudyRun]:
+def draw(config: Config) -> list[StudyRun]:
     """Draw `SAMPLE` runs of the study for each Young modulus, coating and speed evenly."""
     random, listed = np.random.default_rng(SEED), np.array(speeds(config))
     runs = []
@@ -50,7 +51,7 @@ def draw(config: Mapping[str, Any]) -> list[StudyRun]:
 
 
 def table(
-    blade: ReducedBlade, config: Mapping[str, Any], report: Callable[[object], None] = lambda line: None
+    blade: ReducedBlade, config: Config, report: Callable[[object], None] = lambda line: None
 ) -> pd.DataFrame:
     """Find steps and error of the drawn runs at each tolerance; a row each, with `COLUMNS`.
 
@@ -65,8 +66,8 @@ def table(
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
-def _rows(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> Iterator[list[Any]]:
-    spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
+def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[Any]]:
+    spec, analysis = run_spec(config, run.case, run.f_omega), config.analysis
     passage = element_passage(blade, spec)
     specs: dict[float, RunSpec] = {
         tolerance: replace(spec, tolerance=tolerance, steps_per_element=0, max_time_step=math.inf)

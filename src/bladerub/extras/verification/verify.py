@@ -16,7 +16,7 @@ import math
 import multiprocessing
 import signal
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -35,6 +35,7 @@ from bladerub.contact.strips import element_passage
 from bladerub.extras.important_runs import chosen
 from bladerub.extras.study_runs import StudyRun
 from bladerub.extras.verification.differences import Differences, differences, largest
+from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, element_law, run_spec
 from bladerub.study.maps import read_map
 from bladerub.study.solver import row_of
@@ -95,7 +96,7 @@ class VerifiedRun:
         return all(spread >= error / 2 for error, spread in pairs if error > TOLERANCE)
 
 
-def important_runs(config: Mapping[str, Any], maps: Path) -> list[StudyRun]:
+def important_runs(config: Config, maps: Path) -> list[StudyRun]:
     """List the runs that tables and claims rest on (`chosen`), by the folder of maps.
 
     Raises as `bladerub.study.maps.read_map`.
@@ -117,7 +118,7 @@ def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:
 
 
 def verify_runs(
-    blade: ReducedBlade, config: Mapping[str, Any], runs: Sequence[StudyRun], jobs: int = 1
+    blade: ReducedBlade, config: Config, runs: Sequence[StudyRun], jobs: int = 1
 ) -> Iterator[VerifiedRun]:
     """Verify runs in `jobs` processes, and yield them in their order; raises as `verify_run`."""
     law = element_law(config)
@@ -136,12 +137,12 @@ def _start_worker(n_nodes: int, law: ElementLaw) -> None:
     compile_kernel(n_nodes=n_nodes, law=law)
 
 
-def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> VerifiedRun:
+def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRun:
     """Find the error of one run.
 
     Raises `ValueError` if the blade has no such speed, or the step is too long for the scheme.
     """
-    spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
+    spec, analysis = run_spec(config, run.case, run.f_omega), config.analysis
     passage = element_passage(blade, spec)
     solve = partial(_solve, blade, run.row)
     outcome = solve(spec)

@@ -6,14 +6,14 @@ missing.
 """
 
 import logging
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import asdict, fields
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
 from bladerub.io.tables import read as read_table
+from bladerub.settings.study import Config
 from bladerub.study import divergence, peaks
 from bladerub.study.findings import limits, moduli, reduction, tangential, wear_and_spectra
 from bladerub.study.findings.claim import Claim, Finding, NotMeasurable, in_order
@@ -32,7 +32,7 @@ _log = logging.getLogger(__name__)
 
 
 def table(
-    config: Mapping[str, Any],
+    config: Config,
     maps: Iterable[CoatingMap],
     peaks_path: str | Path,
     divergence_path: str | Path,

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from bladerub.io import tables
+from bladerub.settings.study import Config
 from bladerub.study.findings.claim import NotMeasurable
 from bladerub.study.grid import SAME_SPEED, CoatingCase
 from bladerub.study.maps import CoatingMap
@@ -17,9 +17,7 @@ from bladerub.study.variants import of_case, plain
 class Evidence:
     """Maps of the coatings of one study, and its tables ``rom_accuracy``, ``peaks`` and ``divergence``."""
 
-    def __init__(
-        self, config: Mapping[str, Any], tables: Mapping[str, pd.DataFrame], maps: Iterable[CoatingMap]
-    ):
+    def __init__(self, config: Config, tables: Mapping[str, pd.DataFrame], maps: Iterable[CoatingMap]):
         self.config = config
         self.rom_accuracy = tables["rom_accuracy"]
         self.peaks = plain(tables["peaks"])  # the paper has no variants

@@ -45,7 +45,7 @@ def lower_speed(evidence: Evidence, order: int, paper: float | str) -> Finding:
 def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, source: str) -> Finding:
     """Growth of the run at `speed`, at this model's f6 if there is none."""
     f_omega = evidence.peak(case, _LOBES, "f_peak") if speed is None else speed
-    run, threshold = evidence.run(case, f_omega), evidence.config["analysis"]["divergence"]["growth"]
+    run, threshold = evidence.run(case, f_omega), evidence.config.analysis.divergence.growth
     surely = _growth(run, "growth_low")
     # growth that ends after the paper's revolutions, or that the scatter hides, is half of the claim
     hidden = run.growth_per_revolution > threshold >= surely
@@ -70,7 +70,7 @@ def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, source:
 def is_steady(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase, source: str) -> Finding:
     """Growth of the run at `speed`, or at this model's f6 of another coating."""
     f_omega = _distinct_peak(evidence, speed) if isinstance(speed, CoatingCase) else speed
-    run, threshold = evidence.run(case, f_omega), evidence.config["analysis"]["divergence"]["growth"]
+    run, threshold = evidence.run(case, f_omega), evidence.config.analysis.divergence.growth
     holds = NO if run.divergent else PARTLY if run.saturating else YES
     text = f"theta = {case.theta:g} does not diverge at f_omega = {f_omega:g}: growth a revolution ({source})"
     growth, margin = _growth(run, "growth_per_revolution"), threshold - _growth(run, "growth_low")

@@ -59,7 +59,7 @@ def vibration_maximum(evidence: Evidence, order: int, paper: float) -> Finding:
     """Offset of the vibration maximum from the wear maximum nearest to the paper's."""
     coating = _map_near(evidence, paper)
     text = f"wear maximum near {paper:g} is a vibration maximum on eo({order}): offset of the two (Fig. 7)"
-    amplitude = order_amplitude(coating, order, evidence.config["analysis"]["peaks"]["order_halfwidth"])
+    amplitude = order_amplitude(coating, order, evidence.config.analysis.peaks.order_halfwidth)
     worn = _maxima(coating, coating.max_wear)
     worn = worn[np.abs(worn - paper) <= 2 * NEAR]  # another maximum of the wear is not the paper's
     if worn.size == 0:
@@ -129,7 +129,7 @@ def critical_is_higher(evidence: Evidence, order: int) -> Finding:
 @claim("C5c", "at E = 1.1, significant amplitudes where each eo(k) crosses C1 (same section, Fig. 9)")
 def critical_all_orders(evidence: Evidence) -> Finding:
     """Share of the orders crossing C1 within the study whose peak there is a tenth of the highest."""
-    coating, settings = evidence.map(CRITICAL), evidence.config["analysis"]["peaks"]
+    coating, settings = evidence.map(CRITICAL), evidence.config.analysis.peaks
     heights = np.array([peak(coating, order, settings).amplitude for order in _orders(coating)])
     amplitudes = heights[np.isfinite(heights)]
     if amplitudes.size < 2:

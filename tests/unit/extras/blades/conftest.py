@@ -8,17 +8,14 @@ from blade_parts import REDUCTION, TWISTED
 
 from bladerub.blade.build import meshed_blade
 from bladerub.blade.discrete import by_finite_elements
-from bladerub.blade.elasticity import Material
 from bladerub.extras.export.matrices import write_fe_matrices
 
 
 @pytest.fixture(scope="session")
 def discrete():
     """The twisted blade, a little conical, as matrices at five speeds."""
-    config = TWISTED | {"tip_cone": 9.0}
-    speeds = np.linspace(0, 0.4, 5).tolist()
-    material = Material.from_config(config["material"])
-    return by_finite_elements(meshed_blade(config), material, speeds, [], REDUCTION["accuracy_modes"])
+    mesh, speeds = meshed_blade(TWISTED.replaced("tip_cone", 9.0)), np.linspace(0, 0.4, 5).tolist()
+    return by_finite_elements(mesh, TWISTED.material, speeds, [], REDUCTION.accuracy_modes)
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,6 @@ import pytest
 from blade_parts import REDUCTION, TITANIUM, TWISTED, section, tetrahedral_mesh
 
 from bladerub.blade.build import meshed_blade, reduce_meshed
-from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import boundary_faces
@@ -18,11 +17,12 @@ from bladerub.extras.blades.report import mesh_report
 from bladerub.extras.blades.tip import interface
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io.errors import BadInput
+from bladerub.settings.blade import BladeSpec, Mesh
 
 
 @pytest.fixture
 def blade():
-    return meshed_blade(TWISTED | {"tip_cone": 9.0}).mesh
+    return meshed_blade(TWISTED.replaced("tip_cone", 9.0)).mesh
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ def write(blade, tmp_path):
 @pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
 @pytest.mark.parametrize("sets", [{}, {"root_set": "ROOT", "tip_set": "tip"}], ids=["by rule", "by name"])
 def test_the_blade_comes_back_from_its_file(blade, write, name, sets):
-    imported = import_blade(Source(write(name), **sets), {}).blade
+    imported = import_blade(Source(write(name), **sets), TWISTED.mesh).blade
     mesh = imported.mesh
     for nodes in ("root", "tip", "interface"):
         ours, theirs = (of.mesh.points[getattr(of, nodes)] for of in (blade, mesh))
@@ -52,21 +52,22 @@ def test_the_blade_comes_back_from_its_file(blade, write, name, sets):
 
 def test_flow_against_x_turns_the_interface_and_the_cone_around_and_loose_nodes_are_left_out(blade, write):
     path = write(points=1e3 * blade.mesh.points)
-    imported = import_blade(Source(path, Frame("mm", downstream="-x"), tip_cone=-9.0), {})
+    imported = import_blade(Source(path, Frame("mm", downstream="-x"), tip_cone=-9.0), TWISTED.mesh)
     mesh, ours = imported.blade.mesh, blade.mesh.points[blade.interface]
     np.testing.assert_allclose(mesh.mesh.points[mesh.interface], ours[::-1], atol=1e-15)
     assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(9.0)
-    imported = import_blade(Source(write(points=np.vstack([blade.mesh.points, [[0, 0, 0], [9, 9, 9]]]))), {})
+    loose = write(points=np.vstack([blade.mesh.points, [[0, 0, 0], [9, 9, 9]]]))
+    imported = import_blade(Source(loose), TWISTED.mesh)
     assert imported.n_unused == 2
     assert len(imported.blade.mesh.mesh.points) == len(blade.mesh.points)
 
 
 def test_figures_are_those_of_the_mesh_and_what_is_odd_gets_a_warning(blade, write):
     source = Source(write("blade.vtu"))
-    imported = replace(import_blade(source, {}), interface_offset=0.004)
-    reduction = REDUCTION | {"modes_per_speed": 6, "rank_tolerance": 1e-6}
-    built = reduce_meshed(imported.blade, {"blade": TWISTED, "reduction": reduction})
-    figures = mesh_report(source, imported, built, Material.from_config(TITANIUM))
+    imported = replace(import_blade(source, TWISTED.mesh), interface_offset=0.004)
+    reduction = REDUCTION.replaced("modes_per_speed", 6).replaced("rank_tolerance", 1e-6)
+    built = reduce_meshed(imported.blade, BladeSpec(blade=TWISTED, reduction=reduction))
+    figures = mesh_report(source, imported, built, TITANIUM)
     assert json.loads(json.dumps(figures)) == figures
     assert figures["unknowns"] == 3 * (figures["nodes"] - built.mesh.root.size)
     assert figures["mass"] == pytest.approx(4430.0 * figures["volume"])
@@ -116,7 +117,7 @@ def test_broken_meshes_are_refused_with_file_and_culprit(blade, write):
     for number, (content, source, said) in enumerate(cases):
         path = write(f"broken{number}.inp", **content)
         with pytest.raises(BadInput, match=said) as caught:
-            import_blade(Source(path, **source), {})
+            import_blade(Source(path, **source), TWISTED.mesh)
         assert str(caught.value).startswith(f"{path}: ")
         assert "\n" not in str(caught.value)
 
@@ -134,7 +135,7 @@ def test_the_tip_is_what_faces_within_45_degrees_of_the_radius(degrees, is_part)
     np.testing.assert_array_equal(tip, np.flatnonzero((zeta == 1) & (is_part | (xi <= 0.5))))
 
 
-def tip_of(config, make_mesh=hexahedral_mesh, counts=TWISTED["mesh"]):
+def tip_of(config, make_mesh=hexahedral_mesh, counts=TWISTED.mesh):
     shape = BladeShape.from_config(config)
     mesh, cube = make_mesh(*lattice(counts), shape.points)
     faces = boundary_faces(mesh.cells)
@@ -144,8 +145,9 @@ def tip_of(config, make_mesh=hexahedral_mesh, counts=TWISTED["mesh"]):
 @pytest.mark.parametrize("camber", [0.0, 30.0, 80.0])
 @pytest.mark.parametrize("make_mesh", [hexahedral_mesh, tetrahedral_mesh])
 def test_interface_nodes_lie_evenly_on_the_camber_line(blade_config, make_mesh, camber):
-    blade_config["sections"] = [section(0.0), section(1.0, camber=camber, stagger=40.0)]
-    shape, points, faces = tip_of(blade_config, make_mesh, {"chordwise": 28, "thickness": 2, "spanwise": 1})
+    blade = blade_config.replaced("sections", [section(0.0), section(1.0, camber=camber, stagger=40.0)])
+    counts = Mesh.model_construct(chordwise=28, thickness=2, spanwise=1)
+    shape, points, faces = tip_of(blade, make_mesh, counts)
     found = interface(points, faces, downstream_x=1)
     line = shape.points(np.linspace(0, 1, 2001), 0.5, 1.0).T
     arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])

@@ -1,4 +1,3 @@
-import copy
 import re
 import shutil
 import subprocess
@@ -14,7 +13,7 @@ from scipy import sparse
 from scipy.io import mmread, mmwrite
 
 from bladerub.blade.build import build, reduce_given
-from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.elasticity import Solid
 from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
@@ -22,15 +21,16 @@ from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.matrices import check_definite, import_matrices
 from bladerub.extras.blades.origin import MatrixSource, read
 from bladerub.extras.blades.report import matrix_report
+from bladerub.extras.blades.settings import Source
 from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
+from bladerub.settings.blade import BladeSpec
 
 
 @pytest.fixture
 def config():
-    return copy.deepcopy(
-        {"blade": TWISTED | {"tip_cone": 9.0}, "reduction": REDUCTION | {"accuracy_speeds": 5}}
-    )
+    blade, reduction = TWISTED.replaced("tip_cone", 9.0), REDUCTION.replaced("accuracy_speeds", 5)
+    return BladeSpec(blade=blade, reduction=reduction)
 
 
 def imported(folder, **source):
@@ -38,7 +38,7 @@ def imported(folder, **source):
 
 
 def of_folder(config, folder):
-    return config | {"blade": config["blade"] | {"source": {"matrices": str(folder)}}}
+    return config.replaced("blade.source", Source(matrices=str(folder)))
 
 
 def edit(folder, name, change):
@@ -76,7 +76,7 @@ def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
     """All rows, x along the blade, z upstream, in mm, t and N/mm, as other programs write them."""
     turn = np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]], dtype=float)  # rows: axes of the blade in the file
     mesh = discrete.layout.mesh
-    solid = Solid(mesh.mesh, Material.from_config(TITANIUM))
+    solid = Solid(mesh.mesh, TITANIUM)
     everywhere = sparse.kron(sparse.eye_array(solid.n_nodes), turn)
     omega = 2 * np.pi * discrete.frequency[0] * np.array([0.0, 0.2, 0.4])
     displacement = [discrete.free.full(discrete.displacement[f_omega]).ravel() for f_omega in (0.0, 0.2, 0.4)]
@@ -105,9 +105,9 @@ def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
 
 
 def report(folder, config, units="SI"):
-    source, reduction = MatrixSource(folder, Frame(), units), config["reduction"] | {"modes_per_speed": 6}
+    source, config = MatrixSource(folder, Frame(), units), config.replaced("reduction.modes_per_speed", 6)
     given = import_matrices(source, 0.4, 8, 6)
-    return matrix_report(source, given, reduce_given(given.blade, config | {"reduction": reduction}))
+    return matrix_report(source, given, reduce_given(given.blade, config))
 
 
 def test_figures_are_those_of_the_matrices_and_wrong_units_get_a_warning(folder, discrete, config):
@@ -142,7 +142,7 @@ def test_another_speed_is_refused_and_nodes_without_clamped_ones_tell_no_length(
     assert not given.mass_is_complete
     assert 0.1 < given.blade.layout.length < 0.199
     assert build(of_folder(config, folder)).reduced.length == 0.2
-    config["blade"]["length"] = 0.1
+    config = config.replaced("blade.length", 0.1)
     with pytest.raises(BadInput, match=r"blade.length = 0.1: must be that of the blade in .*/matrices"):
         build(of_folder(config, folder))
 
@@ -150,8 +150,7 @@ def test_another_speed_is_refused_and_nodes_without_clamped_ones_tell_no_length(
 def test_a_blade_is_of_its_files_not_of_the_material(config, folder):
     ours = of_folder(config, folder)
     first = made_from(ours)
-    ours["blade"]["material"]["density"] = 1000.0
-    assert made_from(ours) == first
+    assert made_from(ours.replaced("blade.material.density", 1000.0)) == first
     edit(folder, "mass", lambda mass: 2 * mass)
     assert made_from(ours) != first
 
@@ -213,9 +212,9 @@ def test_broken_folders_are_refused_with_file_and_culprit(folder, change, said):
 
 def test_keys_that_do_not_go_together_are_refused():
     with pytest.raises(ValueError, match="file: missing; must be given, or matrices in its place"):
-        read({})
+        read(Source())
     with pytest.raises(ValueError, match="root_set = R: must not be given beside matrices"):
-        read({"matrices": "m", "root_set": "R"})
+        read(Source(matrices="m", root_set="R"))
 
 
 def test_one_negative_eigenvalue_among_many_is_found():
@@ -312,7 +311,7 @@ def test_a_blade_that_is_unstable_at_speed_or_that_nothing_holds_is_refused(fold
     edit(folder, "stiffness_max", lambda stiffness: stiffness - square * discrete.mass)
     with pytest.raises(BadInput, match=r"stiffness_max.npz: is not positive definite: a mode"):
         imported(folder)
-    loose = Solid(discrete.layout.mesh.mesh, Material.from_config(TITANIUM))
+    loose = Solid(discrete.layout.mesh.mesh, TITANIUM)
     edit(folder, "mass", lambda _: loose.mass)
     for path in folder.glob("stiffness_*"):
         edit(folder, path.stem, lambda _: loose.tangent(np.zeros(loose.free.size)))

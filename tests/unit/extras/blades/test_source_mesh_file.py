@@ -1,12 +1,13 @@
 import meshio
 import numpy as np
 import pytest
-from blade_parts import tetrahedral_mesh
+from blade_parts import TWISTED, tetrahedral_mesh
 
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import EDGES
 from bladerub.extras.blades import deck_material, file_source
 from bladerub.extras.blades.mesh_file import read
+from bladerub.extras.blades.settings import Source
 from bladerub.extras.export.mesh_file import write_mesh_file
 
 CORNERS = (np.array([0.0, 0.3, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 0.6, 1.0]))
@@ -68,9 +69,9 @@ def test_a_deck_is_read_as_abaqus_reads_it_and_an_included_file_is_part_of_the_b
     deck, nodes = tmp_path / "m.inp", tmp_path / "n.inp"
     deck.write_text("*INCLUDE, INPUT=n.inp\n")
     nodes.write_text("*NODE\n1, 0, 0, 0\n")
-    blade = {"material": {}, "length": 0.1, "source": {"file": str(deck)}}
+    blade = TWISTED.replaced("source", Source(file=str(deck)))
     before = file_source.recipe(blade)
-    assert file_source.files(blade["source"]) == [str(deck), str(nodes)]
+    assert file_source.files(blade.source) == [str(deck), str(nodes)]
     nodes.write_text("*NODE\n1, 0, 0, 1\n")
     assert file_source.recipe(blade) != before
 
@@ -154,11 +155,11 @@ DECK = "*HEADING\nblade\n*MATERIAL, NAME={}\n*ELASTIC\n{}\n*DENSITY\n{}\n"
 def test_the_material_of_a_deck_is_that_of_its_section_in_the_unit_of_length_and_must_be_isotropic(tmp_path):
     for unit, elastic, density in (("m", "2.1e11, .3,", "7850."), ("ft", "4.385941188e9, 0.3", "15.23120")):
         (tmp_path / "m.inp").write_text(DECK.format("Steel", elastic, density))
-        assert deck_material.read(tmp_path / "m.inp", unit) == pytest.approx(STEEL, rel=1e-4)
+        assert deck_material.read(tmp_path / "m.inp", unit).plain() == pytest.approx(STEEL, rel=1e-4)
     other = DECK.format("Nickel", "205000, 0.31", "8.2e-9")
     section = '*Solid Section, elset=E, material="steel"\n'
     (tmp_path / "m.inp").write_text(other + DECK.format("Steel", "** MPa\n210000, 0.3", "7.85e-9") + section)
-    assert deck_material.read(tmp_path / "m.inp", "mm") == pytest.approx(STEEL)
+    assert deck_material.read(tmp_path / "m.inp", "mm").plain() == pytest.approx(STEEL)
     (tmp_path / "m.inp").write_text("*NODE\n1, 0, 0, 0\n")
     assert deck_material.read(tmp_path / "m.inp", "mm") is None
     for text, said in (

@@ -5,7 +5,6 @@ from blade_parts import REDUCTION, TITANIUM
 from free_vibration import frequencies
 
 from bladerub.blade.build import build
-from bladerub.blade.elasticity import Material
 from bladerub.blade.files import made_from
 from bladerub.blade.geometry import lattice
 from bladerub.blade.mesh import hexahedral_mesh
@@ -14,11 +13,13 @@ from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import import_blade
 from bladerub.extras.blades.origin import Source
 from bladerub.extras.blades.section_profile import EDGE_SHARE
+from bladerub.extras.blades.settings import Source as Settings
 from bladerub.io.errors import BadInput
+from bladerub.settings.blade import BladeSpec, Mesh
 
 CM = Frame("cm")
 HUB, LENGTH, CHORD, THICKNESS = 0.45, 0.2, 0.08, 0.006
-COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
+COUNTS = Mesh(chordwise=7, thickness=1, spanwise=6)
 
 
 def in_space(x, radius, phi):
@@ -68,9 +69,8 @@ def test_a_twisted_plate_is_that_of_its_formula(read):
     direct, (_, _, zeta) = hexahedral_mesh(*lattice(COUNTS), twisted_plate)
     mesh = imported.blade.mesh
     assert imported.volume == pytest.approx(CHORD * THICKNESS * LENGTH, rel=1e-4)
-    material = Material.from_config(TITANIUM)
-    expected = frequencies(direct, np.flatnonzero(zeta == 0), material)
-    np.testing.assert_allclose(frequencies(mesh.mesh, mesh.root, material), expected, rtol=2e-4)
+    expected = frequencies(direct, np.flatnonzero(zeta == 0), TITANIUM)
+    np.testing.assert_allclose(frequencies(mesh.mesh, mesh.root, TITANIUM), expected, rtol=2e-4)
     assert imported.blade.length == pytest.approx(LENGTH, rel=1e-9)
     assert imported.blade.tip_cone == pytest.approx(0, abs=1e-9)
     assert all(section.cut == (0, 0) for section in imported.sections)
@@ -112,16 +112,16 @@ def test_sections_that_make_no_blade_are_refused_with_file_and_culprit(read, cha
 def test_a_blade_is_built_from_its_sections_and_is_of_its_table_and_its_mesh(blade_config, tmp_path, read):
     path = tmp_path / "blade.csv"
     cartesian(twisted_plate).to_csv(path, index=False)
-    config = {"blade": blade_config | {"source": {"file": str(path)}}, "reduction": {}}
+    config = BladeSpec(blade=blade_config, reduction=REDUCTION)
+    config = config.replaced("blade.source", Settings(file=str(path)))
     first = made_from(config)
-    config["blade"]["hub_radius"] = 1.0
-    assert made_from(config) == first
-    config["blade"]["mesh"] = COUNTS
+    assert made_from(config.replaced("blade.hub_radius", 1.0)) == first
+    config = config.replaced("blade.mesh", COUNTS)
     assert made_from(config) != first
     path.write_text(path.read_text() + "# another\n")
     assert len({first, made_from(config)}) == 2
     imported = read(cartesian(twisted_plate))
-    built = build({"blade": config["blade"], "reduction": REDUCTION})
+    built = build(config)
     np.testing.assert_array_equal(built.mesh.mesh.points, imported.blade.mesh.mesh.points)
     assert built.accuracy.relative_error.abs()[0] < 1e-3
 

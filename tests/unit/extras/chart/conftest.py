@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from study_fixtures import changed
 
 from bladerub.extras.chart.point import MEASURES, ChartPoint
 from bladerub.study.grid import CoatingCase
@@ -28,6 +29,6 @@ def make_point():
 @pytest.fixture
 def few_speeds(config):
     """Even speeds 0.16, 0.24 and 0.32; the study has those between as well."""
-    config["speeds"] = {"start": 0.16, "stop": 0.34, "step": 0.02, "extra": []}
-    config["chart"]["speeds"] |= {"start": 0.16, "step": 0.08, "dense_stop": 0.16, "dense_step": 0.08}
-    return config
+    of_chart = {"start": 0.16, "step": 0.08, "dense_stop": 0.16, "dense_step": 0.08}
+    speeds = {"start": 0.16, "stop": 0.34, "step": 0.02, "extra": []}
+    return changed(config, speeds=speeds, chart={"speeds": of_chart})

@@ -1,10 +1,9 @@
 import itertools
-import operator
 from dataclasses import replace
-from functools import reduce
 
 import numpy as np
 import pytest
+from study_fixtures import changed
 
 from bladerub.contact.strips import strip_width
 from bladerub.extras.chart import column, search
@@ -140,19 +139,14 @@ def test_a_smooth_maximum_is_enclosed_and_a_lower_one_looked_at_only_from_the_sh
 
 @pytest.fixture
 def within(config):
-    def make(minutes, **keys):
-        config["chart"] |= {"minutes": minutes, **keys}
-        return plan(config)
-
-    return make
+    return lambda minutes, **keys: changed(config, chart={"minutes": minutes, **keys})
 
 
-def test_the_forecast_of_a_plan_is_within_its_minutes_and_a_larger_budget_adds_to_a_smaller_one(
-    config, within
-):
+def test_the_forecast_of_a_plan_is_within_its_minutes_and_a_larger_budget_adds_to_a_smaller_one(within):
     plans = []
     for minutes in (2, 4, 8, 30):
-        plans.append(chosen := within(minutes))
+        config = within(minutes)
+        plans.append(chosen := plan(config))
         assert 0.75 * minutes < expected_minutes(config, chosen) <= minutes
         assert (chosen.E[0], chosen.E[-1]) == (0.05, 50)
         assert (chosen.K[0], chosen.K[-1]) == (0.02, 20)
@@ -162,7 +156,7 @@ def test_the_forecast_of_a_plan_is_within_its_minutes_and_a_larger_budget_adds_t
         assert set(small.K) <= set(large.K)
         assert len(small.E) * len(small.K) < len(large.E) * len(large.K)
     with pytest.raises(BadInput, match=r"chart.minutes = 1: must be at least 1\.\d for the ends"):
-        within(1)
+        plan(within(1))
 
 
 def test_the_whole_chart_comes_first_at_half_of_the_speeds(config, within):
@@ -170,26 +164,22 @@ def test_the_whole_chart_comes_first_at_half_of_the_speeds(config, within):
     assert (whole.multiple, len(whole.E), len(whole.K)) == (1, 24, 24)
     assert in_words(config).startswith("chart: 1,152 of 1,152 coatings; about ")
     minutes = expected_minutes(config, whole)
-    assert within(minutes + 0.1) == whole
-    half = chart_speeds(config)
-    assert within(minutes - 0.1) == whole._replace(multiple=2)
-    assert "at speeds 2 times as far apart" in in_words(config)
-    fewer = chart_speeds(config)
+    assert plan(within(minutes + 0.1)) == whole
+    shorter = within(minutes - 0.1)
+    assert plan(shorter) == plan(within(minutes / 8 - 1, cores=16)) == whole._replace(multiple=2)
+    assert "at speeds 2 times as far apart" in in_words(shorter)
+    half, fewer = chart_speeds(config), chart_speeds(shorter)
     assert set(fewer.f_omega[fewer.coarse]) < set(half.f_omega[half.coarse])
-    assert within(minutes / 8 - 1, cores=16) == whole._replace(multiple=2)
 
 
 def test_a_chart_has_speeds_of_the_study_and_crossings_of_its_orders_and_columns_of_all_K(config):
-    config["casings"]["2nd"]["peak_orders"] = [4, 6]
+    config = changed(config, casings={"2nd": {"peak_orders": [4, 6]}})
     check(config)
-    config["speeds"]["stop"] = 0.24
     with pytest.raises(BadInput, match=r"speeds.stop = 0.24: must be at least 0.25 for the chart"):
-        check(config)
-    config["speeds"]["stop"] = config["chart"]["speeds"]["start"] = 0.3
+        check(config.replaced("speeds.stop", 0.24))
     with pytest.raises(BadInput, match=r"chart.speeds.start = 0.3: must be below speeds.stop = 0.3"):
-        check(config)
-    config["chart"] |= {"E": [0.11, 2], "K": [0.5, 5], "theta": [0.15]}
-    found = columns(config)
+        check(config.replaced("speeds.stop", 0.3).replaced("chart.speeds.start", 0.3))
+    found = columns(changed(config, chart={"E": [0.11, 2], "K": [0.5, 5], "theta": [0.15]}))
     assert list(found) == ["2nd_E0.11_theta0.15", "2nd_E2_theta0.15"]
     assert [(case.E, case.K) for case in found["2nd_E2_theta0.15"]] == [(2, 0.5), (2, 5)]
 
@@ -205,12 +195,13 @@ def build(few_speeds, blade, make_point, monkeypatch, tmp_path):
 
     monkeypatch.setattr(column, "compute", compute)
 
-    def run(K, digest="blade"):
-        few_speeds["chart"] |= {"E": [2], "K": K, "theta": [0.0]}
+    def run(K, digest="blade", growth=0.01):
+        config = few_speeds.replaced("analysis.divergence.growth", growth)
+        config = config.replaced("chart", config.chart.model_copy(update={"E": [2], "K": K, "theta": [0.0]}))
         computed.clear()
-        ((name, cases),) = columns(few_speeds).items()
-        plan = column.plan_column(few_speeds, cases)
-        rows = column.compute_missing(few_speeds, plan, blade, tmp_path / "cells", digest, lambda line: None)
+        ((name, cases),) = columns(config).items()
+        plan = column.plan_column(config, cases)
+        rows = column.compute_missing(config, plan, blade, tmp_path / "cells", digest, lambda line: None)
         write_manifest(tmp_path / "columns" / f"{name}.tsv", rows, PointRow)
         return list(computed)
 
@@ -220,7 +211,7 @@ def build(few_speeds, blade, make_point, monkeypatch, tmp_path):
 MANIFEST = "columns/2nd_E2_theta0.tsv"
 
 
-def test_a_column_computes_what_is_not_there(few_speeds, build, tmp_path):
+def test_a_column_computes_what_is_not_there(build, tmp_path):
     manifest = tmp_path / MANIFEST
     assert build([0.5, 5]) == [0.5, 5]
     rows = read_manifest(manifest, PointRow)
@@ -230,8 +221,7 @@ def test_a_column_computes_what_is_not_there(few_speeds, build, tmp_path):
     assert build([0.5, 1, 5]) == [1]
     (tmp_path / "cells" / rows[1].file).write_bytes(b"")
     assert build([0.5, 5]) == [5]
-    few_speeds["analysis"]["divergence"]["growth"] = 0.02
-    assert build([5]) == [5]
+    assert build([5], growth=0.02) == [5]
 
 
 def test_a_change_of_mind_costs_no_point_and_no_table_is_made_of_a_damaged_one(build, tmp_path):
@@ -257,36 +247,32 @@ def test_a_change_of_mind_costs_no_point_and_no_table_is_made_of_a_damaged_one(b
 
 
 def test_settings_coatings_and_sources_that_shape_a_point_count_for_its_key(few_speeds, monkeypatch):
-    few_speeds["chart"]["speeds"] |= {"dense_stop": 0.24, "dense_step": 0.04}
+    config = changed(few_speeds, chart={"speeds": {"dense_stop": 0.24, "dense_step": 0.04}})
 
-    def digest(case=CASE):
-        return column.determinants(few_speeds, case, chart_speeds(few_speeds))
+    def digest(case=CASE, config=config):
+        return column.determinants(config, case, chart_speeds(config))
 
     own = digest()
-    for *sections, key, value in (
-        ("analysis", "lobe_prominence", 0.3),
-        ("analysis", "peaks", "speed_window", [0.8, 1.2]),
-        ("analysis", "divergence", "growth", 0.011),
-        ("chart", "speeds", "refine_above", 0.51),
-        ("chart", "speeds", "dense_stop", 0.32),
-        ("speeds", "extra", [0.197]),
-        ("solver", "revolutions", 21),
+    for path, value in (
+        ("analysis.lobe_prominence", 0.3),
+        ("analysis.peaks.speed_window", [0.8, 1.2]),
+        ("analysis.divergence.growth", 0.011),
+        ("chart.speeds.refine_above", 0.51),
+        ("chart.speeds.dense_stop", 0.32),
+        ("speeds.extra", [0.197]),
+        ("solver.revolutions", 21),
     ):
-        section = reduce(operator.getitem, sections, few_speeds)
-        before, section[key] = section[key], value
-        assert digest() != own, key
-        section[key] = before
+        assert digest(config=config.replaced(path, value)) != own, path
     others = [replace(CASE, E=3.0), replace(CASE, K=1.0), replace(CASE, theta=0.1)]
     others += [replace(CASE, casing="2nd5nd"), replace(CASE, law="coulomb")]
     found = {digest(case) for case in [CASE, *others]}
-    few_speeds["chart"] |= {"E": [7], "K": [8], "limits": {"wear": 1e-9}}
-    few_speeds |= {"coatings": [], "results": "elsewhere", "figures": {"dpi": 50}}
-    few_speeds["analysis"] |= {"max_order": 9, "histories": []}
-    few_speeds["casings"]["2nd5nd"]["peak_orders"] = [5]
-    assert digest() == own  # what acts elsewhere leaves it
+    other = {"chart": {"E": [7, 8], "K": [8, 9], "limits": {"wear": 1e-9}}, "results": "elsewhere"}
+    other |= {"analysis": {"max_order": 9, "histories": []}, "figures": {"dpi": 50}}
+    other |= {"coatings": [{"casing": "2nd", "coating": "rigid", "friction": [0.0]}]}
+    elsewhere = changed(config, casings={"2nd5nd": {"peak_orders": [5]}}, **other)
+    assert digest(config=elsewhere) == own  # what acts elsewhere leaves it
     for source in ("solver_digest", "chart_digest"):
         monkeypatch.setattr(column, source, lambda: "other")
         found.add(digest())
     assert len(found) == 8
-    few_speeds["casings"]["2nd"]["peak_orders"] = [2]
-    assert digest() not in found
+    assert digest(config=changed(config, casings={"2nd": {"peak_orders": [2]}})) not in found

@@ -8,6 +8,7 @@ import pytest
 from bladerub import plugins
 from bladerub.extras.chart import check, choice, explanation, ridge, stiffening, table
 from bladerub.extras.chart.point import read, write
+from bladerub.extras.chart.settings import Limits
 from bladerub.io.tables import described_columns, entry
 from bladerub.study.grid import CoatingCase
 
@@ -108,20 +109,19 @@ def test_the_recommended_coating_says_how_good_those_next_to_it_are_and_nothing_
     config, chart
 ):
     rows = table.table(config, chart)
-    limits = {"amplitude": 1.6e-3, "wear": 5e-4}
-    (soft,) = choice.recommended(rows, limits).to_dict("records")
+    (soft,) = choice.recommended(rows, Limits(amplitude=1.6e-3, wear=5e-4)).to_dict("records")
     assert (soft["E"], soft["K"], soft["safe"], soft["coatings"]) == (0.5, 0.1, True, 9)
     assert np.isnan([soft["E_below"], soft["K_below"]]).all()
     assert (soft["E_above"], soft["K_above"]) == (1.0, 1.0)
     assert (soft["neighbours"], soft["safe_neighbours"]) == (3, 2)
     assert (soft["lowest_neighbour"], soft["highest_neighbour"]) == pytest.approx((1e-3, 2e-3))
-    (none,) = choice.recommended(rows, {"amplitude": 1e-5, "wear": 1e-3}).to_dict("records")
+    (none,) = choice.recommended(rows, Limits(amplitude=1e-5, wear=1e-3)).to_dict("records")
     assert (none["safe"], none["broken"], none["safe_coatings"]) == (False, 1, 0)
     assert {entry(name) for name in choice.CHOICE} <= described_columns(*plugins.files("columns.csv")).keys()
     chart = pd.DataFrame({"theta": [0.0, 0.0, 0.0, 0.0, 0.15], "peak": [1e-3, 2e-3, 3e-3, 2e-3, 9e-3]})
     chart = chart.assign(worn_volume=[5.0, 3.0, 4.0, 3.5, 9.0], divergent_share=0.0)
     chart["deepest_wear"] = [1e-4, 9e-4, 1e-4, 1e-4, 1e-4]
-    limits = {"amplitude": 5e-3, "wear": 5e-4, "divergent_share": 0.0}
+    limits = Limits(amplitude=5e-3, wear=5e-4, divergent_share=0.0)
     front = choice.pareto(chart, limits)
     assert list(front.peak) == [1e-3, 2e-3, 9e-3]
     assert list(front.safe) == [True, False, False]

@@ -1,6 +1,7 @@
 import re
 
 import pandas as pd
+from study_fixtures import changed
 
 from bladerub.extras.cost.figure import cost
 from bladerub.extras.cost.forecast import forecast
@@ -49,9 +50,9 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatc
     counts = dict.fromkeys(inventory.COUNTS, 0) | {"planned": 100, "done": 40}
     monkeypatch.setattr(inventory, "take", lambda *_: (counts, []))
     monkeypatch.setattr(inventory, "current_blade", lambda *_: (None, None))
-    study = config | {"coatings": [{"casing": "2nd", "E": [1, 2], "K": [0.5], "theta": [0.0]}]}
-    study["solver"]["revolutions"], study["results"] = 3600, str(tmp_path)
-    study["analysis"]["divergence"]["confirmation_revolutions"] = 7200
+    study = changed(config, coatings=[{"casing": "2nd", "E": [1, 2], "K": [0.5], "theta": [0.0]}])
+    study = study.replaced("results", str(tmp_path)).replaced("solver.revolutions", 3600)
+    study = study.replaced("analysis.divergence.confirmation_revolutions", 7200)
     jobs = [("blade", None), *JOBS, ("fig11_Y4", None)]
     costs = costs_of(study)
     runs = 0.6 * sum(costs.runs.values()) + sum(costs.further["ensemble"].values())

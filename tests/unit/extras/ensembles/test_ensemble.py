@@ -5,10 +5,12 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy import stats
+from study_fixtures import changed
 
 from bladerub.extras.ensembles import bands, ensemble
 from bladerub.extras.ensembles.ensemble import Ensemble, expected_cost
 from bladerub.extras.ensembles.figure import peak_bands
+from bladerub.extras.ensembles.settings import Ensemble as Settings
 from bladerub.extras.further_columns import with_further
 from bladerub.extras.important_runs import chosen, judged, nearest_speed, on_lobes
 from bladerub.io import tables
@@ -17,16 +19,15 @@ from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.paper import WORN
 
 CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
-SETTINGS = {"members": 8, "displacement": 1e-7, "seed": 1}
+SETTINGS = Settings(members=8, displacement=1e-7, seed=1)
 
 
 @pytest.fixture
 def study(config):
     """Seven speeds, peaks at 0.2 and 0.3, two members."""
-    config["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.05, "extra": []}
-    config["ensemble"] = SETTINGS | {"members": 2}
-    config["analysis"]["max_order"] = 24.0  # as `make_map`
-    return config
+    grid = {"start": 0.1, "stop": 0.4, "step": 0.05, "extra": []}
+    analysis = {"max_order": 24.0}  # as `make_map`
+    return changed(config, speeds=grid, ensemble={"members": 2}, analysis=analysis)
 
 
 @pytest.fixture
@@ -47,8 +48,8 @@ def made(study, coating, blade, make_result, solve_by, tmp_path):
 
     solve_by(simulate)
 
-    def make(report=lambda line: None):
-        return ensemble.make(study, coating, blade, "blade", tmp_path / "runs", tmp_path / "e.h5", report)
+    def make(config=study, report=lambda line: None):
+        return ensemble.make(config, coating, blade, "blade", tmp_path / "runs", tmp_path / "e.h5", report)
 
     make.specs, make.path, make.runs = specs, tmp_path / "e.h5", tmp_path / "runs" / ensemble.FOLDER
     return make
@@ -59,20 +60,20 @@ def test_starts_lie_on_both_sides_and_are_those_of_their_run_and_seed_alone():
     assert np.abs(more).max() <= 1e-7
     assert np.quantile(more, 0.1) < -5e-8 < 5e-8 < np.quantile(more, 0.9)
     np.testing.assert_array_equal(ensemble.starts(SETTINGS, CASE, 0.2, 8), more[:8])
-    settings, cases = (SETTINGS, SETTINGS | {"seed": 2}), (CASE, replace(CASE, theta=0.15))
+    settings, cases = (SETTINGS, SETTINGS.replaced("seed", 2)), (CASE, replace(CASE, theta=0.15))
     of_each = itertools.product(settings, cases, (0.2, 0.21))
     assert len({tuple(ensemble.starts(*of, 4)) for of in of_each}) == 8
 
 
 def test_peaks_with_their_neighbours_and_runs_whose_displacement_is_kept_are_chosen(study, coating, make_map):
     np.testing.assert_array_equal(chosen(study, coating), [0.15, 0.2, 0.25, 0.3, 0.35])
-    study["analysis"]["histories"] = [{"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.1}]
-    assert 0.1 in chosen(study, coating)
-    study["analysis"]["histories"][0]["theta"] = 0.15
-    assert 0.1 not in chosen(study, coating)
+    for theta in (0.0, 0.15):
+        history = {"casing": "2nd", "E": 1.1, "K": 0.5, "theta": theta, "f_omega": 0.1}
+        speeds_chosen = chosen(changed(study, analysis={"histories": [history]}), coating)
+        assert (0.1 in speeds_chosen) == (theta == 0)
     unbounded = make_map(CASE, {})
     unbounded.spectrum_amplitude[(unbounded.f_omega > 0.1) & (unbounded.f_omega < 0.25)] = np.nan
-    settings = study["analysis"]["peaks"]
+    settings = study.analysis.peaks
     without_a_peak = [(make_map(CASE, {}, [0.05, 0.1, 0.3]), 6, 0.1), (unbounded, 6, 0.17)]
     for each, order, nearest in [*without_a_peak, (make_map(CASE, {}), 2, 0.4)]:  # where it meets C1
         assert each.f_omega[nearest_speed(each, order, settings)] == nearest
@@ -93,7 +94,7 @@ def test_members_are_the_study_s_run_from_other_starts_each_is_repeated_finer_an
     assert finer[0] == replace(run_spec(study, CASE, 0.15), tolerance=0.0025)
     read = ensemble.read(made.path)
     np.testing.assert_allclose(read.refined.spectrum_amplitude[:, 60], 1e-3, rtol=1e-3)
-    starts = [ensemble.starts(study["ensemble"], CASE, f, 2) for f in (0.15, 0.2, 0.25, 0.3, 0.35)]
+    starts = [ensemble.starts(study.ensemble, CASE, f, 2) for f in (0.15, 0.2, 0.25, 0.3, 0.35)]
     np.testing.assert_array_equal(read.start, np.transpose(starts))
     assert [member.case for member in read.members] == [CASE, CASE]
     np.testing.assert_allclose(read.members[1].f_omega, [0.15, 0.2, 0.25, 0.3, 0.35])
@@ -115,22 +116,19 @@ def test_nothing_is_computed_twice_and_more_members_are_added(made, study):
     before = len(made.specs)
     made()
     assert len(made.specs) == before
-    study["ensemble"]["members"] = 3
     (made.runs / "0.2500_2.h5").unlink()
-    made()
+    made(study.replaced("ensemble.members", 3))
     later = [spec.f_omega for spec in made.specs[before:] if spec.revolutions == 20]
     assert later == [0.25, 0.15, 0.2, 0.25, 0.3, 0.35]
 
 
 def test_each_peak_has_three_speeds_each_history_its_own_and_claims_on_lobes_theirs(config):
-    config["ensemble"]["members"] = 2
-    config["analysis"]["histories"] = []
+    config = changed(config, ensemble={"members": 2}, analysis={"histories": []})
     assert expected_cost(config, CASE) == (2 + 2) * 3 * 2
     history = {"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0}
-    config["analysis"]["histories"] = [history | {"f_omega": f} for f in (0.1, 0.2)]
+    config = changed(config, analysis={"histories": [history | {"f_omega": f} for f in (0.1, 0.2)]})
     assert expected_cost(config, CASE) == (2 + 2) * (2 + 3 * 2)
-    config["ensemble"]["members"] = 0
-    assert expected_cost(config, CASE) == 0
+    assert expected_cost(config.replaced("ensemble.members", 0), CASE) == 0
 
 
 def test_runs_of_claims_on_lobes_are_repeated_and_not_followed(study, make_map):
@@ -144,7 +142,7 @@ def test_runs_of_claims_on_lobes_are_repeated_and_not_followed(study, make_map):
     worn = make_map(WORN, {4: (0.3, 2e-4), 6: (0.17, 2e-4)}, [0.05, 0.07, *near_peaks])
     np.testing.assert_array_equal(judged(study, worn), near_peaks)
     plans = ensemble.plan(study, worn)
-    assert len(plans) == study["ensemble"]["members"] + 1
+    assert len(plans) == study.ensemble.members + 1
     for member in plans:
         assert [run.spec.f_omega for run in member.runs] == list(worn.f_omega)
         assert [run.follow for run in member.runs] == [False] * 2 + [True] * 6
@@ -187,7 +185,7 @@ def ensembles(make_map):
 
 def test_peaks_and_runs_have_the_band_of_all_draws(config, maps, ensembles):
     table = bands.of_peaks(config, maps, ensembles)
-    assert set(table.modulus_unit) == {config["contact"]["modulus_unit"]}
+    assert set(table.modulus_unit) == {config.contact.modulus_unit}
     pd.testing.assert_frame_equal(table.iloc[:, :8], peak_table.table(config, maps))
     of_six, of_four = (table[(table.E == 1.1) & (table.order == order)].iloc[0] for order in (6, 4))
     expected = bands.band([5e-4, *HEIGHTS])
@@ -198,7 +196,7 @@ def test_peaks_and_runs_have_the_band_of_all_draws(config, maps, ensembles):
     assert of_six.f_peak_high > 0.22
     assert of_six.amplitude_error == pytest.approx(4e-6, rel=1e-3)
     assert of_four.amplitude_low == pytest.approx(of_four.amplitude_high) == pytest.approx(2e-4)
-    config["analysis"]["divergence"]["confirmation_revolutions"] = 0
+    config = config.replaced("analysis.divergence.confirmation_revolutions", 0)
     table = bands.of_runs(config, maps, ensembles)
     assert list(table.columns) == bands.RUN_COLUMNS
     found = table.set_index("f_omega")

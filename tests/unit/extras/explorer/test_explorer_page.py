@@ -9,6 +9,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pandas as pd
 import pytest
+from study_fixtures import changed
 
 from bladerub.extras.explorer import figures
 from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, parts
@@ -35,9 +36,9 @@ def coating(make_map, case):
 
 
 @pytest.fixture
-def verdicts(coating):
+def verdicts(coating, config):
     growth = {"growth": 0.01, "revolutions": 10, "confidence": 0.95, "confirmation_revolutions": 30}
-    return divergence.table({"analysis": {"divergence": growth}}, [coating])
+    return divergence.table(changed(config, analysis={"divergence": growth}), [coating])
 
 
 @pytest.fixture

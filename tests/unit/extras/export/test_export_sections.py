@@ -6,10 +6,9 @@ import pytest
 from free_vibration import frequencies
 from scipy.io import loadmat
 
-from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
-from bladerub.config.read import load
+from bladerub.config.read import read
 from bladerub.contact.modes import at_tip
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Coating
@@ -24,13 +23,14 @@ from bladerub.extras.export.sections import write_sections
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Disk, Row
 from bladerub.io.folders import ROOT
+from bladerub.settings.blade import Material, Mesh
 
-COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
+COUNTS = Mesh(chordwise=7, thickness=1, spanwise=6)
 
 
 @pytest.mark.parametrize("coordinates", ["cartesian", "cylindrical"])
 def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(tmp_path, coordinates):
-    blade = load(ROOT / "config" / "config.yaml")["blade"]
+    blade = read(ROOT / "config" / "config.yaml").blade
     path = tmp_path / "blade.csv"
     write_sections(path, BladeShape.from_config(blade), coordinates)
     table = pd.read_csv(path, comment="#")
@@ -41,16 +41,16 @@ def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(tm
     table.to_csv(path, index=False)
     imported = import_blade(Source(path, Frame("inch"), angle_unit="deg"), COUNTS)
     ours = BladeMesh.from_shape(BladeShape.from_config(blade), COUNTS)
-    material = Material.from_config(blade["material"])
-    found, expected = (frequencies(of.mesh, of.root, material) for of in (imported.blade.mesh, ours))
+    found, expected = (frequencies(of.mesh, of.root, blade.material) for of in (imported.blade.mesh, ours))
     np.testing.assert_allclose(found, expected, rtol=3e-4)
-    assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(blade["tip_cone"], abs=1e-4)
+    assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(blade.tip_cone, abs=1e-4)
     interface = imported.blade.mesh.mesh.points[imported.blade.mesh.interface]
     np.testing.assert_allclose(interface, ours.mesh.points[ours.interface], atol=1e-4)
 
 
 def test_a_deck_of_a_rotating_blade_has_its_load_first_and_the_frequencies_of_calculix_are_read(tmp_path):
-    points, material = np.arange(60.0).reshape(20, 3), Material(110e9, 0.32, 4430.0)
+    material = Material(young_modulus=110e9, poisson_ratio=0.32, density=4430.0)
+    points = np.arange(60.0).reshape(20, 3)
     text = deck(points, np.arange(20)[None], np.array([0]), material, 30.0)
     assert "BLADE, CENTRIF, 9.000000000000e+02, 0., 0., 0., 1., 0., 0." in text
     assert text.index("*STEP, NLGEOM") < text.index("*STEP, PERTURBATION") < text.index("*FREQUENCY")

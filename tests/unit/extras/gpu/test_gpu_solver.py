@@ -41,7 +41,7 @@ def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
     of_gpu, of_row = key(), key(Row.even(2))
     monkeypatch.setattr(solver, "gpu_digest", lambda: "other")
     assert key() != of_gpu
-    config["solver"]["device"] = "cpu"
+    config = config.replaced("solver.device", "cpu")
     assert key() != of_gpu
     assert key(Row.even(2)) == of_row  # which the processor computes in any case
 

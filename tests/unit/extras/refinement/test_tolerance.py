@@ -1,4 +1,4 @@
-import types
+from functools import partial
 
 import pandas as pd
 import pytest
@@ -6,14 +6,16 @@ from blade_parts import TWISTED
 
 from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.build import build
+from bladerub.blade.built import BuiltBlade
 from bladerub.extras.refinement import tolerance as refinement
+from bladerub.settings.blade import BladeSpec, Reduction
 
 REDUCTION = {"modes_per_speed": 2, "rank_tolerance": 1e-6, "accuracy_speeds": 5, "accuracy_modes": 7}
 REDUCTION["f_omega_max"] = 0.8  # so fast that eq. (2) is not enough
 
 
-def reduced(**changes):
-    return build({"blade": TWISTED, "reduction": REDUCTION | changes})
+def reduced(build=build, **changes):
+    return build(BladeSpec(blade=TWISTED, reduction=Reduction(**REDUCTION | changes)))
 
 
 def largest(built):
@@ -44,16 +46,16 @@ def tried(monkeypatch):
     def search(tolerance, speed_law, reduced_model, most_fit_speeds=7, mode=1):
         tried = []
 
-        def reduce(n_speeds, _, reduction):
-            tried.append((n_speeds, reduction["modes_per_speed"]))
+        def reduce(n_speeds, config):
+            tried.append((n_speeds, config.reduction.modes_per_speed))
             table = pd.DataFrame({"mode": range(1, 9)}).assign(f_fe=1.0, f_fe_eq2=1.0, relative_error=0.0)
             errors = [1 + speed_law(*tried[-1]), reduced_model(*tried[-1])]
             table.loc[table["mode"] == mode, ["f_fe_eq2", "relative_error"]] = errors
-            return types.SimpleNamespace(accuracy=table)
+            return BuiltBlade(*[None] * 7, table, "")
 
         monkeypatch.setattr(refinement, "reduce", reduce)
-        config = {"blade": {"length": 0.2}, "reduction": {"modes_per_speed": 6, "tolerance": tolerance}}
-        refinement.reduce_to_tolerance(lambda n_speeds: n_speeds, config, most_fit_speeds)
+        change = partial(refinement.reduce_to_tolerance, lambda n: n, most_fit_speeds=most_fit_speeds)
+        reduced(change, modes_per_speed=6, tolerance=tolerance)
         return tried
 
     return search

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from study_fixtures import changed
 
 from bladerub import plugins
 from bladerub.cli import inputs, main
@@ -44,8 +45,7 @@ def tables_of(text):
 @pytest.fixture
 def study(config, make_map, tmp_path, monkeypatch):
     """Three coatings: the first is the worst, diverges from 0.3 on and is unbounded at the last speed."""
-    config |= {key: OVERLAY[key] for key in ("coatings", "speeds", "ensemble")}
-    config["analysis"]["histories"] = []
+    config = changed(config, **OVERLAY)
     cases = {case.name: case for case in coating_cases(config)}
     growth = np.where(np.round(np.arange(0.02, 0.4001, 0.01), 6) >= 0.3, 0.05, 0.0)
     status = np.where(growth.cumsum() > 0.52, "unbounded", "completed")
@@ -54,10 +54,10 @@ def study(config, make_map, tmp_path, monkeypatch):
         make_map(cases[INCLINED], {4: (0.28, 5e-4), 6: (0.17, 2e-4), 9: (0.1, 4e-3)}),
         make_map(cases[RIGID], {4: (0.31, 1e-3), 6: (0.19, 9e-4)}),
     ]
-    folder = tmp_path / "results"
+    folder, origin = tmp_path / "results", provenance(config.plain())
     hdf5.write(folder / "blade" / "reduced_model.h5", {}, {"f1_hz": F1})
     for coating in maps:
-        write_map(folder / "maps" / f"{coating.case.name}.h5", coating, provenance(config))
+        write_map(folder / "maps" / f"{coating.case.name}.h5", coating, origin)
     accuracy = pd.DataFrame(itertools.product((0.0, 0.2, 0.4), range(1, 8)), columns=["f_omega", "mode"])
     f_fe = F1 * accuracy["mode"] * np.sqrt(1 + 3 * accuracy.f_omega**2)
     accuracy = accuracy.assign(f_fe=f_fe, f_fe_eq2=1.02 * f_fe, f_rom=f_fe, relative_error=0.0)
@@ -71,9 +71,7 @@ def study(config, make_map, tmp_path, monkeypatch):
         "rom_accuracy": accuracy,
     }
     for name, frame in frames.items():
-        tables.write(
-            folder / f"tables/{name}.csv", frame, provenance(config), None, plugins.files("columns.csv")
-        )
+        tables.write(folder / f"tables/{name}.csv", frame, origin, None, plugins.files("columns.csv"))
     monkeypatch.setattr(inputs, "study_folder", lambda: tmp_path)
     (tmp_path / "small.yaml").write_text(yaml.safe_dump(OVERLAY))
     return folder

@@ -4,6 +4,7 @@ import contact_in_numpy
 import numpy as np
 import pytest
 import scipy.linalg
+from study_fixtures import changed
 
 from bladerub.contact.modes import modes_at
 from bladerub.contact.run import simulate
@@ -196,15 +197,15 @@ def test_draws_have_their_scatter_and_a_row_is_read_back_as_written():
 def test_runs_are_of_single_blades_unless_the_study_has_a_rotor(config):
     assert row_of(config) is None
     rotor = {"blades": 3, "length": [1e-5, 0.0, 0.0], "damping": [1.2], "coupling": [0.01, 0.003]}
-    row = row_of(config | {"rotor": rotor})
+    row = row_of(changed(config, rotor=rotor))
     assert row == Row.even(3, [1e-5, 0.0, 0.0], damping=1.2, disk=Disk.ring(3, [0.01, 0.003]))
-    drawn = row_of(config | {"rotor": rotor | {"length_scatter": 5e-5, "seed": 4}})
+    drawn = row_of(changed(config, rotor=rotor | {"length_scatter": 5e-5, "seed": 4}))
     draws = Row.drawn(3, 4, 5e-5)
     for own, plain, draw in zip(drawn.blades, row.blades, draws.blades, strict=True):
         assert own.length == plain.length + draw.length
         assert own.frequency == 0.0
     with pytest.raises(ValueError, match=r"row: 2 values of length; must be 1 or 3"):
-        row_of(config | {"rotor": rotor | {"length": [0.0, 0.0]}})
+        row_of(changed(config, rotor=rotor | {"length": [0.0, 0.0]}))
 
 
 def test_the_blades_and_the_sources_of_a_row_are_part_of_its_key_alone(config, case, monkeypatch):

@@ -52,11 +52,12 @@ def test_totals_of_sixteen_vectors():
 
 ONE = """
 import sys
-from bladerub.contact.laws import element_law, module_for
+from bladerub.contact.laws import module_for
 from bladerub.contact.setup import compile_kernel
+from bladerub.extras.law_reading import law_of
 from bladerub.numerics.lanes import lanes_for
 values = {"viscosity": 1e4} if sys.argv[2] == "viscoplastic" else {}
-n_nodes, law = int(sys.argv[1]), element_law({"name": sys.argv[2], **values})
+n_nodes, law = int(sys.argv[1]), law_of({"name": sys.argv[2], **values})
 compile_kernel(n_nodes=n_nodes, law=law)
 loop = module_for(lanes_for(n_nodes), "contact.kernel.loop", law)
 print(sum(loop.integrate.stats.cache_misses.values()))

@@ -1,9 +1,11 @@
 import numpy as np
 import pandas as pd
 import pytest
+from study_fixtures import CONFIG, changed
 
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
+from bladerub.config.read import vary
 from bladerub.extras.variations import candidates, identification, implausibility, job, waves
 from bladerub.extras.variations import robustness as summary
 from bladerub.extras.variations.emulator import Emulator, compared, held_out
@@ -71,12 +73,11 @@ def test_the_factor_that_decides_shares_and_cost_of_each_claim_and_the_design_ar
     assert value["contact.tip_profile.half_width"] == doubled
 
 
-DEPTH = Factor("depth", "m", {"casings.2nd.interference": (0.2, 0.6), "casings.5nd.interference": (0.3, 0.7)})
+DEPTHS = {"casings.2nd.interference": (2e-3, 6e-3), "casings.2nd5nd.interference": (3e-3, 7e-3)}
+DEPTH = Factor("depth", "m", DEPTHS)
 TURNS = Factor("turns", "1", {"contact.tip_turns": (0.0, 1.0)}, multiple_of=1.0)
-STUDY = {
-    "contact": {"modulus_unit": 1e9, "tip_turns": False},
-    "casings": {"2nd": {"interference": 0.5}, "5nd": {"interference": 0.4}},
-}
+CASINGS = {"2nd": {"interference": 5e-3}, "2nd5nd": {"interference": 4e-3}}
+STUDY = changed(CONFIG, contact={"modulus_unit": 1e9, "tip_turns": False}, casings=CASINGS)
 
 
 def test_factors_set_numbers_and_switches_and_own_values_lie_at_their_fraction_of_the_range():
@@ -84,11 +85,11 @@ def test_factors_set_numbers_and_switches_and_own_values_lie_at_their_fraction_o
         assert factor.position(factor.own(STUDY)) == pytest.approx(fraction)
         assert factor.first_value(fraction) == pytest.approx(factor.own(STUDY))
     for position, turns in ((0.49, False), (0.51, True)):
-        varied = lay_over(Located.of(STUDY, UNKNOWN), (UNIT, DEPTH, TURNS), (1.0, 0.25, position)).plain()
-        assert varied["contact"] == {"modulus_unit": pytest.approx(1e10), "tip_turns": turns}
-    assert varied["casings"]["2nd"]["interference"] == pytest.approx(0.3)
-    assert varied["casings"]["5nd"]["interference"] == pytest.approx(0.4)
-    assert STUDY["contact"]["modulus_unit"] == 1e9
+        varied = lay_over(vary(STUDY), (UNIT, DEPTH, TURNS), (1.0, 0.25, position)).plain()
+        assert varied["contact"]["modulus_unit"] == pytest.approx(1e10)
+        assert varied["contact"]["tip_turns"] is turns
+    assert varied["casings"]["2nd"]["interference"] == pytest.approx(3e-3)
+    assert varied["casings"]["2nd5nd"]["interference"] == pytest.approx(4e-3)
 
 
 def test_shares_add_up_in_order():
@@ -138,7 +139,7 @@ def test_the_deviation_of_a_prediction_makes_a_set_more_plausible_and_quantities
 
 
 TARGET = {target.name: target for target in TARGETS}
-OWN_STUDY = {"contact": {"modulus_unit": 6e8}, "blade": {"hub_radius": 0.45}}
+OWN_STUDY = changed(CONFIG, contact={"modulus_unit": 6e8}, blade={"hub_radius": 0.45})
 EMPTY = Located.of({}, UNKNOWN)
 
 

@@ -1,9 +1,11 @@
 import itertools
 from dataclasses import replace
+from operator import attrgetter
 
 import numpy as np
 import pandas as pd
 import pytest
+from study_fixtures import changed
 
 from bladerub.extras.variations import margins
 from bladerub.extras.variations.calibration import verdicts
@@ -78,7 +80,7 @@ HARDENING = [0.1, 0.5, 1.0, 5.0]
 
 @pytest.fixture
 def study(config):
-    return config | {"speeds": {"start": 0.02, "stop": 0.4, "step": 0.01, "extra": [0.197, 0.206]}}
+    return changed(config, speeds={"start": 0.02, "stop": 0.4, "step": 0.01, "extra": [0.197, 0.206]})
 
 
 @pytest.fixture
@@ -112,11 +114,10 @@ def test_speeds_and_moduli_are_dropped_but_not_those_that_are_named(study, maps)
     young = {coating.case.E for coating in varied["without E = 0.2, 5"].maps}
     assert young == set(YOUNG) - {0.2, 5.0}
     assert {coating.case.K for coating in varied["without K = 0.1, 5"].maps} == {0.5, 1.0}
-    for name, (part, key, value) in margins.SETTINGS.items():
-        config, of_all = varied[name]
-        assert config["analysis"][part][key] == value != study["analysis"][part][key]
-        config["analysis"][part][key] = study["analysis"][part][key]
-        assert config == study
+    for name, (key, value) in margins.SETTINGS.items():
+        (config, of_all), setting = varied[name], attrgetter(key)
+        assert setting(config.analysis) == value != setting(study.analysis)
+        assert config.replaced(f"analysis.{key}", setting(study.analysis)) == study
         assert of_all == maps
 
 

@@ -27,7 +27,7 @@ def test_tip_coating_and_step_stay_the_same(blade, config, case):
 
 
 def test_the_peak_is_followed_and_compared_with_that_of_the_study(blade, config, make_result, monkeypatch):
-    n = config["contact"]["elements"]
+    n = config.contact.elements
 
     def simulate(_, spec):
         finer = spec.coating.n_elements // n

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from study_fixtures import changed
 
 from bladerub.extras.verification import accuracy, verify
 from bladerub.extras.verification.compare import compare as compare_tables
@@ -44,14 +45,14 @@ def solver(monkeypatch, make_result):
 
 @pytest.fixture
 def verified(blade, config, case, solver):
-    config["solver"] |= {"scheme": "exponential", "steps_per_element": 6, "max_time_step": 2e-6}
-    return lambda: verify.verify_run(blade, config, StudyRun(case, 0.19))
+    steps = {"scheme": "exponential", "steps_per_element": 6, "max_time_step": 2e-6}
+    return lambda: verify.verify_run(blade, changed(config, solver=steps), StudyRun(case, 0.19))
 
 
 def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config, make_map, tmp_path):
     case = CoatingCase("2nd", 1.1, 0.5, 0.0)
-    config["coatings"] = [{"casing": "2nd", "E": [1.1], "K": [0.5], "theta": [0.0]}]
-    config["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.05, "extra": []}
+    grid = {"start": 0.1, "stop": 0.4, "step": 0.05, "extra": []}
+    config = changed(config, coatings=[{"casing": "2nd", "E": [1.1], "K": [0.5], "theta": [0]}], speeds=grid)
     coating = make_map(case, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, speeds(config))
     write_map(tmp_path / f"{case.name}.h5", coating, {})
     runs = verify.important_runs(config, tmp_path)
@@ -107,7 +108,7 @@ def test_each_difference_is_relative_to_the_reference_of_a_row_to_the_blade_that
     make_result, config
 ):
     def compare(outcome, reference):
-        return differences([outcome], [reference], config["analysis"])
+        return differences([outcome], [reference], config.analysis)
 
     reference = make_result(amplitude=1e-3, depth=2e-4)
     found = compare(make_result(amplitude=1.02e-3, depth=2.1e-4), reference)
@@ -121,7 +122,7 @@ def test_each_difference_is_relative_to_the_reference_of_a_row_to_the_blade_that
         wear = make_result(depth=2e-4)
         return [replace(make_result(amplitude=of), wear=wear.wear) for of in (small, large)]
 
-    found = differences(row(1e-3, 2e-5), row(1e-3, 1e-5), config["analysis"])
+    found = differences(row(1e-3, 2e-5), row(1e-3, 1e-5), config.analysis)
     assert found == pytest.approx(Differences(0.0, 0.01, 0.01), rel=1e-6)
     one = row(1e-3, 1e-5)[0]
     assert compare(one, one) == Differences(0.0, 0.0, 0.0)

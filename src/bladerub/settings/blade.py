@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import BladeLengths, Degree, Metre, Number, Omitted, Pascal, Section, Unit
+from bladerub.settings.fields import BladeLengths, Degree, Metre, Number, Omitted, Pascal, Section, Unit
 
 
 class Material(Section):
@@ -89,3 +89,10 @@ class Reduction(Section):
     exact at the speeds of its fit."""
     accuracy_modes: int = Field(ge=1, le=50)
     """Modes of the accuracy table. The paper shows seven that agree; ten show where agreement ends."""
+
+
+class BladeSpec(Section):
+    """All that a reduced blade is built from."""
+
+    blade: Blade
+    reduction: Reduction

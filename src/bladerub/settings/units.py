@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any, NamedTuple
 
-from bladerub.config.errors import format_value
+from bladerub.io.errors import format_value
 
 _PI = Fraction(math.pi)
 _MILLE, _MICRO = Fraction(1, 1000), Fraction(1, 1_000_000)

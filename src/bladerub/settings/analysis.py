@@ -4,9 +4,9 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import ASCENDING, Limit, Metre, Number, Omitted, Section, Speed, Unit
-from bladerub.config.models.coatings import Histories
-from bladerub.config.models.quantities import EngineOrders
+from bladerub.settings.coatings import Histories
+from bladerub.settings.fields import ASCENDING, Limit, Metre, Number, Omitted, Section, Speed, Unit
+from bladerub.settings.quantities import EngineOrders
 
 
 class Peaks(Section):

@@ -1,6 +1,6 @@
 """The whole config of a study: the sections of the core, and those that plug in."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import cache
 from typing import Annotated, Any, Literal
 
@@ -8,12 +8,12 @@ from pydantic import Field, create_model
 from pydantic.fields import FieldInfo
 
 from bladerub import plugins
-from bladerub.config.fields import BladeLengths, Form, Limit, Number, Omitted, Section, Speed, Unit
-from bladerub.config.models.analysis import Analysis, Figures
-from bladerub.config.models.blade import Blade, Reduction
-from bladerub.config.models.coatings import Coatings
-from bladerub.config.models.contact import Contact, casings
-from bladerub.config.models.quantities import RunSpeed
+from bladerub.settings.analysis import Analysis, Figures
+from bladerub.settings.blade import BladeSpec
+from bladerub.settings.coatings import Coatings
+from bladerub.settings.contact import Contact, casings
+from bladerub.settings.fields import BladeLengths, Form, Limit, Number, Omitted, Section, Speed, Unit
+from bladerub.settings.quantities import RunSpeed
 
 
 class Speeds(Section):
@@ -57,7 +57,7 @@ class Solver(Section):
     computed on, so the runs of the other are stale."""
 
 
-class Study(Section):
+class Config(BladeSpec):
     """The whole study, from the blade to the figures."""
 
     results: Annotated[
@@ -68,8 +68,6 @@ class Study(Section):
         ),
     ] = Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*$", max_length=120)
     """Everything a rule makes is written to this folder, so that it can be deleted as a whole."""
-    blade: Blade
-    reduction: Reduction
     contact: Contact
     casings: casings({})  # type: ignore[valid-type]
     coatings: Coatings
@@ -78,37 +76,50 @@ class Study(Section):
     analysis: Analysis
     figures: Figures
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the values: the class, with what plugs in, is made anew."""
+        return typed, (self.plain(),)
+
 
 @cache
-def whole() -> type[Section]:
+def whole() -> type[Config]:
     """Make the model of a config: the core with what plugs in (``SECTIONS`` of `bladerub.plugins`)."""
     offered = plugins.loaded("SECTIONS")
     kinds = {
         key.removeprefix("casings."): offered.pop(key) for key in [*offered] if key.startswith("casings.")
     }
     field = (casings(kinds), ...)
-    study = create_model("Study", __base__=Study, __doc__=Study.__doc__, casings=field)
+    study = create_model("Config", __base__=Config, __doc__=Config.__doc__, casings=field)
     return _extended(study, "", offered)
+
+
+def typed(values: Mapping[str, Any], broken: Collection[str] = ()) -> Config:
+    """Make the config of `values` that have been checked, without those of its sections that are `broken`."""
+    if not broken:
+        return whole().model_validate(values)
+    sound = whole().model_fields.keys() & values.keys() - {*broken}
+    return whole().model_construct(
+        **{name: getattr(_alone(name).model_validate({name: values[name]}), name) for name in sound}
+    )
+
+
+@cache
+def _alone(name: str) -> type[Section]:
+    """Make a model of one section of a config."""
+    field = whole().model_fields[name]
+    return create_model(name, __base__=Section, **{name: (field.annotation, field)})  # type: ignore[call-overload]
 
 
 def required() -> set[str]:
     """Return the names of the sections that every config has."""
-    return {name for name, field in Study.model_fields.items() if field.is_required()}
+    return {name for name, field in Config.model_fields.items() if field.is_required()}
 
 
 @cache
 def defaults() -> dict[str, Any]:
     """Return the sections that plug in with a default, which a file need not have."""
-    values = {
-        name: field.get_default(call_default_factory=True)
-        for name, field in whole().model_fields.items()
-        if name not in Study.model_fields
-    }
-    return {
-        name: value.model_dump(exclude_none=True) if isinstance(value, Section) else value
-        for name, value in values.items()
-        if value is not None
-    }
+    added = whole().model_fields.keys() - Config.model_fields.keys()
+    return whole().model_construct().model_dump(include=added, exclude_none=True)
 
 
 def _extended(model: type[Section], path: str, offered: Mapping[str, Any]) -> type[Section]:

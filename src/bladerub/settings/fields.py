@@ -11,18 +11,18 @@ it is and why it has its value in the study of the paper::
 
 Plain numbers are SI, or in a size of the study: ``f1`` is the first frequency of the blade at rest,
 ``modulus_unit`` is ``contact.modulus_unit`` times ``contact.scale.modulus``. A number may also be typed with
-a unit of the same kind (`bladerub.config.units`).
+a unit of the same kind (`bladerub.settings.units`).
 """
 
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, TypeVar
+from typing import Annotated, Any, ClassVar, Self, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError
 
-from bladerub.config.units import Unit
+from bladerub.settings.units import Unit
 
 T = TypeVar("T")
 
@@ -31,8 +31,27 @@ class Section(BaseModel):
     """A group of keys; its docstring says what it is of."""
 
     model_config: ClassVar[ConfigDict] = ConfigDict(
-        extra="forbid", strict=True, frozen=True, allow_inf_nan=False, use_attribute_docstrings=True
+        extra="forbid",
+        strict=True,
+        frozen=True,
+        allow_inf_nan=False,
+        use_attribute_docstrings=True,
     )
+
+    def plugged(self, key: str, default: Any = None) -> Any:
+        """Return what a key that plugs in has, and `default` without the plug-in or the key."""
+        value = getattr(self, key, None)
+        return default if value is None else value
+
+    def plain(self) -> dict[str, Any]:
+        """Return the values that are given, by their keys."""
+        return self.model_dump(exclude_unset=True)
+
+    def replaced(self, path: str, value: Any) -> Self:
+        """Return a copy with another value, not checked, at a path such as ``solver.revolutions``."""
+        key, _, below = path.partition(".")
+        new = getattr(self, key).replaced(below, value) if below else value
+        return self.model_copy(update={key: new})
 
     @classmethod
     def further_keys(cls, values: Mapping[str, Any]) -> Mapping[str, Any]:

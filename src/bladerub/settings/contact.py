@@ -5,7 +5,7 @@ from typing import Annotated, Any, Union
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from bladerub.config.fields import (
+from bladerub.settings.fields import (
     UNIQUE,
     BladeLengths,
     Form,
@@ -19,7 +19,7 @@ from bladerub.config.fields import (
     Unit,
     disagreement,
 )
-from bladerub.config.models.quantities import (
+from bladerub.settings.quantities import (
     DampingRatio,
     EngineOrders,
     Interference,
@@ -123,7 +123,8 @@ def casings(kinds: Mapping[str, type[Section]]) -> Any:
     """Make the type of the group, with `kinds` beside `Casing` by a key that they alone have."""
 
     def tag(entry: Any) -> str:
-        return next((key for key in kinds if isinstance(entry, Mapping) and key in entry), "sum")
+        keys = entry.plain() if isinstance(entry, Section) else entry
+        return next((key for key in kinds if isinstance(keys, Mapping) and key in keys), "sum")
 
     models = {"sum": Casing, **kinds}
     union = Union[tuple(Annotated[model, Tag(name)] for name, model in models.items())]  # noqa: UP007

@@ -5,8 +5,8 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
-from bladerub.config.fields import Omitted, Section, Speed
-from bladerub.config.models.quantities import (
+from bladerub.settings.fields import Omitted, Section, Speed
+from bladerub.settings.quantities import (
     CasingName,
     DampingRatio,
     Friction,
@@ -95,6 +95,8 @@ class HistoryWithFriction(_LayerRun):
 
 def _kind(entry: Any) -> str | None:
     """Tell the kinds of coating apart; none of an entry whose key `coating` is not ``rigid``."""
+    if isinstance(entry, Section):
+        entry = entry.plain()
     if not isinstance(entry, Mapping):
         return "layer"
     if "coating" in entry:

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from bladerub.config.fields import (
+from bladerub.settings.fields import (
     UNIQUE,
     Degree,
     Form,

@@ -1,0 +1,1 @@
+"""The models of a config, by section; `bladerub.settings.fields` says how they are written."""
