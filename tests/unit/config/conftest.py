@@ -4,11 +4,7 @@ from study_fixtures import CONFIG
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import validate
 
-
-@pytest.fixture
-def config():
-    """The values of the paper's study."""
-    return CONFIG.plain()
+config = pytest.fixture(lambda: CONFIG.plain(), name="config")
 
 
 @pytest.fixture
