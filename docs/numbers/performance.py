@@ -12,8 +12,10 @@ def _loop(benchmark):
     def million(digits):
         return lambda steps: fixed(steps / 1e6, digits)
 
-    fractions = benchmark.groupby("motion")["fraction_of_peak"]
-    low, high = fractions.min(), fractions.max()
+    def of_peak(motion):
+        part = rows(benchmark, motion=motion)["fraction_of_peak"]
+        return " to ".join(dict.fromkeys(map(percent, (part.min(), part.max()))))
+
     return {
         "speeds": table(
             benchmark,
@@ -39,8 +41,8 @@ def _loop(benchmark):
                 "study_minutes": ("minutes of the study", decimals(1)),
             },
         ),
-        "peak_free": f"{percent(low['free'])} to {percent(high['free'])}",
-        "peak_contact": f"{percent(low['contact'])} to {percent(high['contact'])}",
+        "peak_free": of_peak("free"),
+        "peak_contact": of_peak("contact"),
     }
 
 
