@@ -24,10 +24,15 @@ _VARIED = Field(
 )
 
 
-class RigidCoating(Section):
-    """Direct contact with one casing, which neither deforms nor wears."""
+class OnCasing(Section):
+    """What all coatings have, and the runs of one."""
 
     casing: CasingName
+
+
+class RigidCoating(OnCasing):
+    """Direct contact with one casing, which neither deforms nor wears."""
+
     coating: Rigid
     friction: list[Friction] = _SEVERAL
     """0, for comparison with coatings of theta = 0."""
@@ -35,8 +40,7 @@ class RigidCoating(Section):
     interference: Omitted[list[Interference]] = _VARIED
 
 
-class _Layers(Section):
-    casing: CasingName
+class _Layers(OnCasing):
     E: list[YoungModulus] = _SEVERAL
     """The nine of the paper, and a softer one."""
     K: list[PlasticModulus] = _SEVERAL
@@ -60,8 +64,7 @@ class CoatingWithFriction(_Layers):
     """The tangent of theta, for comparison; the study has none."""
 
 
-class _Run(Section):
-    casing: CasingName
+class _Run(OnCasing):
     f_omega: Speed = Field(ge=0.001, le=2)
     """One of the speeds of the study; of the paper's histories, those at others are left out."""
     damping_ratio: Omitted[DampingRatio] = None

@@ -14,8 +14,8 @@ def casing_spec(name: str, entry: AnyCasing, length_scale: float = 1.0) -> Casin
 
     Raises a ValueError that begins with the key if a kind that plugs in cannot be read, or none does.
     """
-    if kind := _kind(entry):
-        return kind.casing_spec(name, entry, length_scale)
+    if not isinstance(entry, Waves):
+        return _kind(entry).casing_spec(name, entry, length_scale)
     return Casing(
         name=name,
         nodal_diameters=tuple(entry.nodal_diameters),
@@ -29,15 +29,13 @@ def casing_spec(name: str, entry: AnyCasing, length_scale: float = 1.0) -> Casin
 
 def nodal_diameters(entry: AnyCasing) -> list[int]:
     """List the nodal diameters of a casing of the config: those with weight."""
-    if kind := _kind(entry):
-        return kind.nodal_diameters(entry)
+    if not isinstance(entry, Waves):
+        return _kind(entry).nodal_diameters(entry)
     return [n for n, w in zip(entry.nodal_diameters, entry.weights, strict=False) if w]
 
 
 def _kind(entry: AnyCasing) -> Any:
-    """Return the module that describes an entry by the key it has; None for nodal diameters."""
-    if isinstance(entry, Waves):
-        return None
+    """Return the module that describes an entry by the key it has."""
     for key, place in plugins.offered("CASINGS").items():
         if entry.plugged(key) is not None:
             return plugins.load(place)

@@ -12,7 +12,7 @@ import numpy as np
 from bladerub import plugins
 from bladerub.contact import laws
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec, TipProfile
-from bladerub.settings.fields import Section
+from bladerub.settings.coatings import OnCasing
 from bladerub.settings.study import Config
 from bladerub.study.casings import casing_spec
 
@@ -125,14 +125,14 @@ def coating_cases(config: Config) -> list[CoatingCase]:
     return list(cases.values())
 
 
-def cases_of(entry: Section) -> list[CoatingCase]:
+def cases_of(entry: OnCasing) -> list[CoatingCase]:
     """List the combinations that one entry of ``coatings`` stands for."""
     varied = _values(entry)
     combinations = itertools.product(*varied.values())
     return [_case(entry.casing, dict(zip(varied, values, strict=True))) for values in combinations]
 
 
-def listed_case(entry: Section) -> CoatingCase:
+def listed_case(entry: OnCasing) -> CoatingCase:
     """Read one coating: ``casing, E, K`` with ``theta`` or ``friction``, or ``casing, coating, friction``.
 
     Each may have keys of `OWN` as well.
@@ -140,7 +140,7 @@ def listed_case(entry: Section) -> CoatingCase:
     return _case(entry.casing, _values(entry))
 
 
-def _values(entry: Section) -> dict[str, Any]:
+def _values(entry: OnCasing) -> dict[str, Any]:
     return {key: value for key in _VARIED if (value := getattr(entry, key, None)) is not None}
 
 
