@@ -71,10 +71,9 @@ class Study(Shown):
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any]) -> "Study":
         """Return the study of nested values as `load_study` does that of a file; raises as `replace`."""
-        located = Located.of(settings, UNKNOWN)
-        if not required() <= settings.keys():
-            located = configuration.vary(configuration.read(base_config()), located)
-        return cls(configuration.validate(located), study_folder())
+        if required() <= settings.keys():
+            return cls(configuration.validate(settings), study_folder())
+        return cls(configuration.read(base_config()), study_folder()).replace(settings)
 
     @property
     def results(self) -> Path:

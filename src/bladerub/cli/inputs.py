@@ -171,7 +171,7 @@ def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[s
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
     config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
-    law = config.plain()["contact"].get("law", {}).get("file")
+    law = getattr(config.contact.plugged("law"), "file", None)
     named_law = configuration.load(base)["contact"].get("law", {}).get("file")
     if law not in (None, named_law) and not getattr(options, "trust", True):
         raise BadInput(

@@ -31,11 +31,7 @@ class Section(BaseModel):
     """A group of keys; its docstring says what it is of."""
 
     model_config: ClassVar[ConfigDict] = ConfigDict(
-        extra="forbid",
-        strict=True,
-        frozen=True,
-        allow_inf_nan=False,
-        use_attribute_docstrings=True,
+        extra="forbid", strict=True, frozen=True, allow_inf_nan=False, use_attribute_docstrings=True
     )
 
     def plugged(self, key: str, default: Any = None) -> Any:
