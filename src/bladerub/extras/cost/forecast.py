@@ -2,6 +2,7 @@
 
 import atexit
 import sys
+import textwrap
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -43,14 +44,10 @@ def announce_at_exit(config: Config, workflow: Any) -> None:
     atexit.register(announce, config, workflow)
 
 
-_MOST_NAMED = 8
-
-
 def coatings(config: Config) -> str:
     """Name the coatings of the study in a line, so that a list such as ``[0,5]`` shows as two values."""
     names = [case.name for case in coating_cases(config)]
-    excess = len(names) - _MOST_NAMED
-    return f"coatings: {', '.join(names[:_MOST_NAMED])}{f' and {excess} more' if excess > 0 else ''}"
+    return f"{len(names)} coatings: {textwrap.shorten(', '.join(names), 160, placeholder=' …')}"
 
 
 def forecast(
