@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from bladerub import plugins
 
 if TYPE_CHECKING:
+    from bladerub.api.arguments import InputError
     from bladerub.api.blade import Blade, build_blade, read_blade
-    from bladerub.api.errors import InputError
     from bladerub.api.map import Map, read_map, simulate_speeds
     from bladerub.api.planned import StudyCoating, StudyRun
     from bladerub.api.run import Run, read_run
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _MODULES = {
+    "api.arguments": ("InputError",),
     "api.blade": ("Blade", "build_blade", "read_blade"),
-    "api.errors": ("InputError",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
     "api.planned": ("StudyCoating", "StudyRun"),
     "api.run": ("Run", "read_run"),

@@ -11,11 +11,9 @@ import numpy as np
 import pandas as pd
 
 from bladerub import plots
-from bladerub.api.errors import InputError
-from bladerub.api.lists import over
-from bladerub.api.notebook import Shown
+from bladerub.api.arguments import InputError, over
+from bladerub.api.display import Shown, step
 from bladerub.api.planned import Quantity
-from bladerub.api.progress import step
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.blade.cache import kept_at

@@ -10,14 +10,11 @@ import numpy as np
 import pandas as pd
 
 from bladerub import plots
+from bladerub.api.arguments import InputError, over
 from bladerub.api.blade import Blade
-from bladerub.api.dataset import to_dataset
-from bladerub.api.errors import InputError
-from bladerub.api.lists import over
-from bladerub.api.notebook import Shown
+from bladerub.api.display import Shown, bar, step
 from bladerub.api.planned import Quantity, StudyCoating, StudyRun
-from bladerub.api.progress import bar, step
-from bladerub.api.run import Run
+from bladerub.api.run import Run, to_dataset
 from bladerub.api.study import settings_of
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.hdf5 import read_attributes

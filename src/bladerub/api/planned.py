@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 
-from bladerub.api.errors import InputError
-from bladerub.api.lists import over
+from bladerub.api.arguments import InputError, over
 from bladerub.blade.cache import kept_frequency
 from bladerub.config import quantities
 from bladerub.config.checks import most_revolutions

@@ -9,13 +9,13 @@ import numpy as np
 import pandas as pd
 
 from bladerub import plots, plugins
-from bladerub.api.dataset import to_dataset
-from bladerub.api.errors import InputError
-from bladerub.api.lists import over
-from bladerub.api.notebook import Shown
+from bladerub.api.arguments import InputError, over
+from bladerub.api.display import Shown
 from bladerub.api.study import settings_of
 from bladerub.contact.result import Energy
 from bladerub.io.equality import equal
+from bladerub.io.hdf5 import Variable
+from bladerub.io.optional import package
 from bladerub.io.provenance import PREFIX, provenance
 from bladerub.plots import titles
 from bladerub.settings.analysis import Divergence
@@ -303,6 +303,19 @@ def run_of(runs: Mapping[str, StoredRun], prefix: str = "") -> Run:
     """Return the run whose parts, as of `runs_of`, are among `runs`."""
     stored, longer = runs[prefix], runs.get(f"{prefix}{_LONGER}")
     return Run(stored, Run(longer) if longer else None, _described_stress(stored.attributes))
+
+
+def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> "xr.Dataset":
+    """Return variables with their units as xarray opens them from a file that holds them."""
+    arrays = {
+        name: (
+            variable.dims,
+            np.asarray(variable.data),
+            {"units": variable.units, "long_name": variable.long_name},
+        )
+        for name, variable in variables.items()
+    }
+    return package("xarray", "xarray").Dataset(arrays, attrs=dict(attributes))
 
 
 def stress_measure() -> Any:

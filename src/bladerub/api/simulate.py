@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from bladerub.api.arguments import over
 from bladerub.api.blade import Blade
-from bladerub.api.lists import over
+from bladerub.api.display import bar, step
 from bladerub.api.planned import StudyRun
-from bladerub.api.progress import bar, step
 from bladerub.api.run import Run, stress_measure
 from bladerub.contact.setup import compile_kernel
 from bladerub.study.grid import speed_name

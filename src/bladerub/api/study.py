@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from bladerub.api.errors import InputError
-from bladerub.api.lists import over
-from bladerub.api.notebook import Shown
+from bladerub.api.arguments import InputError, over
+from bladerub.api.display import Shown
 from bladerub.api.planned import Quantity, StudyCoating, StudyRun, checked_number
 from bladerub.blade.cache import kept_frequency
 from bladerub.config import read as configuration

@@ -54,11 +54,11 @@ class Parser(argparse.ArgumentParser):
 @contextmanager
 def as_options(**names: str) -> Iterator[None]:
     """Turn the error of an argument of the Python interface into that of the option of this or its name."""
-    from bladerub.api import errors
+    from bladerub.api.arguments import InputError
 
     try:
         yield
-    except errors.InputError as error:
+    except InputError as error:
         option = names.get(error.name, error.name).replace("_", "-")
         hint = " (for a casing of another config: --config FILE)" if option == "casing" else ""
         raise BadInput(f"--{option} = {error.value}: {error.right}{hint}") from None

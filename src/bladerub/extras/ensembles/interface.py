@@ -7,11 +7,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bladerub.api.arguments import InputError, over
 from bladerub.api.blade import Blade
-from bladerub.api.errors import InputError
-from bladerub.api.lists import over
+from bladerub.api.display import Shown
 from bladerub.api.map import solve_all
-from bladerub.api.notebook import Shown
 from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run, run_of, runs_of
 from bladerub.extras.ensembles.bands import band

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from bladerub.api.lists import over
+from bladerub.api.arguments import over
 from bladerub.extras.fit import curves
 from bladerub.extras.fit.fit import Fit, fit
 

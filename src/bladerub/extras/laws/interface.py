@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from bladerub.api.errors import InputError
+from bladerub.api.arguments import InputError
 from bladerub.contact.spec import ElementLaw
 from bladerub.extras.law_reading import law_of
 from bladerub.extras.law_settings import law_entry

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
+from bladerub.api.arguments import over
 from bladerub.api.blade import Blade
-from bladerub.api.lists import over
 from bladerub.api.study import default_study
 from bladerub.extras.rig.blade import simulate_blade_passes
 from bladerub.extras.rig.passes import simulate_passes

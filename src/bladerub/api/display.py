@@ -1,8 +1,11 @@
-"""How objects show themselves, in a terminal and in a notebook."""
+"""What a person sees of the interface: objects in a terminal or a notebook, and how far a call has come."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from html import escape
+
+from tqdm.auto import tqdm
 
 
 class Shown(ABC):
@@ -25,3 +28,19 @@ class Shown(ABC):
             for name, value in rows.items()
         )
         return f"<table><caption>{escape(title)}</caption>{cells}</table>"
+
+
+def bar(total: int, unit: str, progress: bool | None, **look: str) -> tqdm:
+    """Return a bar of so many units on standard error, which goes when they are done.
+
+    `progress` is None, for a terminal or notebook alone, or whether to show it.
+    """
+    disable = None if progress is None else not progress
+    return tqdm(total=total, unit=unit, disable=disable, leave=False, **look)
+
+
+@contextmanager
+def step(text: str, progress: bool | None) -> Iterator[None]:
+    """Show what is being done until it is done."""
+    with bar(1, "", progress, desc=f"{text} …", bar_format="{desc}"):
+        yield

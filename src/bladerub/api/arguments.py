@@ -1,4 +1,4 @@
-"""Lists in place of single values."""
+"""Arguments of the interface: lists in place of single values, and the error of one that cannot be used."""
 
 import inspect
 from collections.abc import Callable
@@ -8,7 +8,25 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from bladerub.io.errors import BadInput, format_value
+
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+class InputError(BadInput):
+    """An argument that cannot be used: its `name`, its `value` in words and what would be `right`.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> str(br.InputError("K", -1.0, "must be above 0"))
+    'K = -1: must be above 0'
+    """
+
+    def __init__(self, name: str, value: Any, right: str):
+        self.name, self.right = name, right
+        self.value = f"{value:g}" if isinstance(value, float) else format_value(value)
+        super().__init__(f"{name} = {self.value}: {right}")
 
 
 def over(*names: str) -> Callable[[Function], Function]:
