@@ -17,13 +17,10 @@ from bladerub.config.checks import own_problem
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
+from bladerub.settings.coatings import History, HistoryOfDirectContact, HistoryWithFriction, OnCasing
 from bladerub.settings.study import Config, required, typed
 from bladerub.settings.units import pressure_in_words, speeds_in_words
 from bladerub.study import grid
-from bladerub.study.grid import CoatingCase
-
-OVERRIDES = ("damping_ratio", "layer_thickness", "interference")
-"""What a coating may have of its own instead of what the config says of all."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -112,7 +109,7 @@ class Study(Shown):
         """Speeds (n,) of the study, ascending, normalised."""
         return np.array(grid.speeds(self.config))
 
-    @over("E", "K", "theta", "friction", *OVERRIDES)
+    @over("E", "K", "theta", "friction", *grid.OWN)
     def coating(
         self,
         casing: str,
@@ -160,17 +157,16 @@ class Study(Shown):
         >>> br.default_study().coating("2nd", E=1.1, K=0.5, damping_ratio=1e-3).name
         '2nd_E1.1_K0.5_theta0_xi0.001'
         """
-        overrides = {
+        if friction is not None and theta is not None:
+            raise InputError("friction", friction, "goes without theta, which says the same")
+        own = {
             "damping_ratio": damping_ratio,
             "layer_thickness": layer_thickness,
             "interference": interference,
         }
-        if friction is not None and theta is not None:
-            raise InputError("friction", friction, "goes without theta, which says the same")
-        E, K = (checked_number(self.config, name, value) for name, value in (("E", E), ("K", K)))
         if friction is None:
-            return self._checked(CoatingCase, overrides, casing, E, K, theta=theta or 0.0)
-        return self._checked(CoatingCase.coulomb, overrides, casing, E, K, friction=friction)
+            return self._checked(History, casing, own, E=E, K=K, theta=theta or 0.0)
+        return self._checked(HistoryWithFriction, casing, own, E=E, K=K, friction=friction)
 
     @over("friction", "damping_ratio", "interference")
     def rigid(
@@ -182,10 +178,10 @@ class Study(Shown):
         interference: Quantity | None = None,
     ) -> StudyCoating:
         """Describe direct contact with the rigid casing by Coulomb's law; the rest is as of `coating`."""
-        overrides = {"damping_ratio": damping_ratio, "interference": interference}
-        return self._checked(CoatingCase.rigid, overrides, casing, friction=friction)
+        own = {"damping_ratio": damping_ratio, "interference": interference}
+        return self._checked(HistoryOfDirectContact, casing, own, friction=friction)
 
-    @over("E", "K", "f_omega", "theta", "friction", "revolutions", *OVERRIDES)
+    @over("E", "K", "f_omega", "theta", "friction", "revolutions", *grid.OWN)
     def run(
         self,
         casing: str,
@@ -214,23 +210,14 @@ class Study(Shown):
         return coating.at(f_omega, revolutions)
 
     def _checked(
-        self,
-        make: Any,
-        overrides: Mapping[str, Quantity | None],
-        casing: str,
-        *moduli: float,
-        **tangential: Quantity,
+        self, kind: type[OnCasing], casing: str, own: Mapping[str, Quantity | None], **values: Quantity
     ) -> StudyCoating:
-        casings = self.config.casings
-        if casing not in casings:
-            raise InputError("casing", casing, _one_of(casing, casings))
-        plain = {
-            name: checked_number(self.config, name, value)
-            for name, value in {**tangential, **overrides}.items()
-            if value is not None
-        }
-        values = (*map(float, moduli), *(float(plain[name]) for name in tangential))
-        case = make(casing, *values).with_own(**{name: plain.get(name) for name in overrides})
+        """Describe the coating of an entry of this kind; what is None in `own` is that of the config."""
+        if casing not in self.config.casings:
+            raise InputError("casing", casing, _one_of(casing, self.config.casings))
+        values |= {name: value for name, value in own.items() if value is not None}
+        plain: Any = {name: checked_number(self.config, name, value) for name, value in values.items()}
+        case = grid.listed_case(kind.model_construct(casing=casing, **plain))
         if case.variant and (problem := own_problem(self.config, case)):
             raise InputError(problem[0], case.own[problem[0]], f"must be {problem[1]}")
         return StudyCoating(self.config, case)
