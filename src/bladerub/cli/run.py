@@ -17,21 +17,27 @@ from bladerub.cli.run_option import RunOption
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:  # as in `inputs`
-    from bladerub.api.planned import StudyCoating, StudyRun
+    from bladerub.api.blade import Blade
+    from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
-    from bladerub.api.study import Study
 
 _QUANTITIES = ("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
-_UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
-_UNITS |= {
+_UNITS = {
+    "E": "contact.modulus_unit",
+    "K": "contact.modulus_unit",
+    "theta": "rad",
+    "f_omega": "f1 at rest",
     "modulus_unit": "Pa",
     "displacement_over_length": "1",
     "peak_amplitude": "m",
     "max_wear": "m",
     "growth_per_revolution": "1",
+    "rpm": "1/min",
+    "damping_ratio": "1",
+    "layer_thickness": "m",
+    "interference": "m",
 }
-_UNITS |= {"rpm": "1/min", "damping_ratio": "1", "layer_thickness": "m", "interference": "m"}
 
 
 def add_to(commands: Any) -> None:
@@ -80,7 +86,8 @@ def _options() -> list[RunOption]:
 def run(options: argparse.Namespace) -> None:
     """Run the simulation that the command line asks for, and print its summary."""
     config = inputs.read_config(options)
-    _check_coating(options)
+    with inputs.as_options():
+        values = _coating_values(options)
     if options.device:
         config = config.replaced("solver.device", options.device)
     for option in _options():
@@ -88,10 +95,8 @@ def run(options: argparse.Namespace) -> None:
 
     from bladerub.api.simulate import simulate
     from bladerub.api.study import Study
-    from bladerub.config.quantities import references
     from bladerub.study.solver import solver_of
 
-    inputs.convert(options, *_QUANTITIES, reference=references(config))
     study, more = Study(config, inputs.study_folder()), {}
     for option in _options():
         study = option.vary(options, study)
@@ -105,13 +110,14 @@ def run(options: argparse.Namespace) -> None:
         study = replace(study, config=config)
     with inputs.as_options(f_omega="f", speed="f"):
         f_omega = blade.f_omega(speed) if blade else speed
-        planned = _coating(options, study).at(f_omega, options.revolutions)
+        describe = study.rigid if options.coating == "rigid" else study.coating
+        planned = describe(options.casing, **values).at(f_omega, options.revolutions)
     fastest = config.reduction.f_omega_max
     if not blade and planned.f_omega > fastest:  # of a blade that may not be built yet
         typed = f" ({speed})" if isinstance(speed, str) else ""
         limit = f"reduction.f_omega_max = {fastest:g} (times the first frequency at rest)"
         raise BadInput(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
-    _point_out(options)
+    _point_out(options, planned)
     solver_of(config).check()
     blade = blade or inputs.read_blade(options, config)[0]
     with refused(ValueError, OSError), inputs.as_options(f_omega="f"):
@@ -121,9 +127,7 @@ def run(options: argparse.Namespace) -> None:
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             result.write(options.output, config)
-    figures = _figures(planned, result, seconds) | {"rpm": 60 * planned.f_omega * blade.f1_hz}
-    peak = figures["peak_amplitude"]
-    figures["displacement_over_length"] = None if peak is None else peak / blade.length
+    figures = _figures(planned, blade, result, seconds)
     inputs.warn_of_residual(options, figures["energy_residual"])
     for option in _options():
         figures |= option.figures(options, planned, blade, result)
@@ -131,48 +135,39 @@ def run(options: argparse.Namespace) -> None:
     inputs.show(options, figures, _in_words)
 
 
-def _check_coating(options: argparse.Namespace) -> None:
-    """Check that the options of a coating are there, and none of another kind."""
+def _coating_values(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the values of the coating that are given: those it needs, and none of another kind."""
+    from bladerub.api.arguments import InputError
+
+    given = {name: value for name in _QUANTITIES if (value := getattr(options, name)) is not None}
     if options.coating == "rigid":
-        for option in ("E", "K", "theta", "layer-thickness"):
-            setting = getattr(options, option.replace("-", "_"))
-            if setting is not None:
-                raise BadInput(f"--{option} = {setting:g}: goes with --coating abradable only")
-        return
-    for option in ("E", "K"):
-        if getattr(options, option) is None:
-            raise BadInput(f"--{option}: missing, an abradable coating needs it")
+        for name in ("E", "K", "theta", "layer_thickness"):
+            if name in given:
+                raise InputError(name, given[name], "goes with --coating abradable only")
+    else:
+        for name in ("E", "K"):
+            if name not in given:
+                raise BadInput(f"--{name}: missing, an abradable coating needs it")
+    return given
 
 
-def _point_out(options: argparse.Namespace) -> None:
+def _point_out(options: argparse.Namespace, planned: "StudyRun") -> None:
     """Say on standard error what is allowed, but may not be meant."""
-    if options.theta and options.theta > _STEEP:
-        ratio = f"the tangential part is {math.tan(options.theta):.2g} times the normal one"
-        print(
-            f"bladerub run: --theta = {options.theta:g}: in rad, of the contact force {ratio}",
-            file=sys.stderr,
-        )
+    theta = planned.case.theta
+    if planned.case.law == "theta" and theta > _STEEP:
+        ratio = f"the tangential part is {math.tan(theta):.2g} times the normal one"
+        print(f"bladerub run: --theta = {theta:g}: in rad, of the contact force {ratio}", file=sys.stderr)
     if options.output and not options.output.parent.exists():
         print(f"bladerub run: making the folder {options.output.parent}", file=sys.stderr)
 
 
-def _coating(options: argparse.Namespace, study: "Study") -> "StudyCoating":
-    coating_values = {"damping_ratio": options.damping_ratio, "interference": options.interference}
-    if options.coating == "rigid":
-        return study.rigid(options.casing, friction=options.friction or 0.0, **coating_values)
-    coating_values |= {
-        "theta": options.theta,
-        "friction": options.friction,
-        "layer_thickness": options.layer_thickness,
-    }
-    return study.coating(options.casing, E=options.E, K=options.K, **coating_values)
-
-
-def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, Any]:
+def _figures(planned: "StudyRun", blade: "Blade", result: "Run", seconds: float) -> dict[str, Any]:
     from bladerub.study.store import datasets
 
-    case, runs = planned.case, (result, result.longer) if result.longer else (result,)
-    conditions = {
+    case, summary = planned.case, result.summary(planned.config)
+    peak = summary["peak_amplitude"]
+    steps = sum(run.attributes["n_steps"] for run in (result, result.longer) if run)
+    return {
         "casing": case.casing,
         "E": None if case.is_rigid else case.E,
         "K": None if case.is_rigid else case.K,
@@ -185,14 +180,12 @@ def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, An
         "interference": planned.spec.casing.interference,
         "f_omega": planned.f_omega,
         "revolutions": planned.spec.revolutions,
-    }
-    steps = sum(run.attributes["n_steps"] for run in runs)
-    return {
-        **conditions,
-        **result.summary(planned.config),
+        **summary,
         "steps_per_second": steps / seconds,
         "run_key": result.attributes["run_key"],
         "units": _UNITS | {f"max_{name}": datasets()[name][1] for name in result.layer},
+        "rpm": 60 * planned.f_omega * blade.f1_hz,
+        "displacement_over_length": None if peak is None else peak / blade.length,
     }
 
 

@@ -12,6 +12,7 @@ RUN = "run --casing 2nd --E 2 --K 0.5 --f 0.19"
 COMMANDS = {
     "run --casing 2dn --E 2 --K 1 --f 0.19": '"2dn": must be one of 2nd, 2nd5nd; did you mean 2nd?',
     f"{RUN} --E soft": "argument --E: must be a number, or one with a unit: 'soft'",
+    "run --casing 2nd --coating rigid --E 1GPa --f 1": '--E = "1GPa": goes with --coating abradable only',
     f"{RUN} --f 0.41": "--f = 0.41: must be at most reduction.f_omega_max = 0.4",
     f"{RUN} --f 9000rpm --config small.yaml": "(9000rpm): must be at most reduction.f_omega_max = 0.4",
     f"{RUN} --revolutions {10**30}": f"--revolutions = {10**30}: ",
