@@ -78,18 +78,13 @@ def add_command(commands: Any, name: str, command: Callable, blade: bool = True,
     """Add a command with ``--config``, ``--json`` and perhaps ``--blade`` to the subparsers `commands`."""
     parser = commands.add_parser(name, **texts)
     parser.set_defaults(command=command)
-    add_config_to(parser)
+    text = "YAML files laid over config/config.yaml, in order"
+    parser.option("--config", text, nargs="+", default=[], action="extend", metavar="FILE")
     if blade:
         text = "reduced blade (default: the one in the results folder)"
         parser.option("--blade", text, Path, metavar="FILE")
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
     return parser
-
-
-def add_config_to(parser: Parser) -> None:
-    """Add ``--config`` to the options of a command."""
-    text = "YAML files laid over config/config.yaml, in order"
-    parser.option("--config", text, nargs="+", default=[], action="extend", metavar="FILE")
 
 
 def require(options: argparse.Namespace, **bounds: tuple[int, int]) -> None:
@@ -202,16 +197,14 @@ def quantity(text: str) -> float | str:
     return text
 
 
-def convert(options: argparse.Namespace, *names: str, reference: units.Reference, section: str = "") -> None:
-    """Turn options with a unit, by their names or those in a section of the config, into plain numbers."""
+def convert(options: argparse.Namespace, *names: str, reference: units.Reference, section: str) -> None:
+    """Turn options with a unit, by their names in a section of the config, into plain numbers."""
     from bladerub.config.quantities import number
 
     for name in names:
         typed = getattr(options, name)
-        try:
+        with refused(ValueError, because=f"--{name.replace('_', '-')} = {format_value(typed)}: "):
             setattr(options, name, number(f"{section}{name}", typed, reference))
-        except ValueError as error:
-            raise BadInput(f"--{name.replace('_', '-')} = {format_value(typed)}: {error}") from None
 
 
 def blade_path(options: argparse.Namespace, config: "Config") -> Path:

@@ -15,15 +15,16 @@ _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unreadable", "unb
 
 def add_to(commands: Any) -> None:
     """Add this command to the subparsers `commands`."""
-    parser = commands.add_parser(
+    parser = inputs.add_command(
+        commands,
         "status",
+        status,
+        blade=False,
         help="count the runs of the study that are done, missing, stale, corrupt and unbounded",
         description="Compare the runs in the results folder with the plan, coating by coating. Nothing is "
         "computed. Stale runs are those of another blade, solver or setting; the next snakemake computes "
         "them again, as it does missing and corrupt ones.",
     )
-    parser.set_defaults(command=status)
-    inputs.add_config_to(parser)
     parser.add_argument(
         "--thorough",
         action="store_true",
@@ -36,13 +37,12 @@ def add_to(commands: Any) -> None:
         help="delete the damaged files that are found, so that the next snakemake makes them again, and "
         "them alone",
     )
-    parser.add_argument("--json", action="store_true", help="print the counts as JSON")
 
 
-def status(options: argparse.Namespace) -> None:
-    """Count the runs of the study and print the counts; raises `ConfigError`.
+def status(options: argparse.Namespace) -> int:
+    """Count the runs of the study and print the counts; return 2 if the system refuses to read any of them.
 
-    Exits with 2 if the system refuses to read any of them.
+    Raises `ConfigError`.
     """
     config, notes = inputs.read_config_with_notes(options)
 
@@ -69,10 +69,8 @@ def status(options: argparse.Namespace) -> None:
     rows = inventory.total(part.counts for part in of_rows) if of_rows else None
     examinations = plugins.loaded("FAULTS").values() if options.thorough else ()
     faults = [examine(results) for examine in examinations]
-    parts, lost_files = (
-        [*taken.values(), *of_rows, *faults],
-        [path for part in faults for path in part.lost_files],
-    )
+    parts = [*taken.values(), *of_rows, *faults]
+    lost_files = [path for part in faults for path in part.lost_files]
     damaged = list(dict.fromkeys(path for part in parts for path in part.damaged))
     unreadable = list(dict.fromkeys(line for part in parts for line in part.unreadable))
     if options.discard:
@@ -90,13 +88,11 @@ def status(options: argparse.Namespace) -> None:
         }
         total_of_rows = {"rows_of_blades": rows} if rows else {}
         print(json.dumps(total | about | {"coatings": counts} | total_of_rows, indent=2))
-        if unreadable:
-            sys.exit(2)
-        return
+        return 2 if unreadable else 0
     _print_table(counts | {"all": total})
-    print(f"\nspeeds: {speeds_in_words(speeds(config), kept_frequency(config))}", end="")
+    print(f"\nspeeds: {speeds_in_words(speeds(config), kept_frequency(config))}")
     longer = f"{total['longer_done']} of {total['longer_planned']} done"
-    print(f"\nlonger runs, where growth is to be confirmed: {longer}")
+    print(f"longer runs, where growth is to be confirmed: {longer}")
     if rows:
         counted = ", ".join(f"{rows[column]} {column}" for column in _COLUMNS)
         print(f"rows of blades: {counted}, {rows['bytes'] / 1e6:.1f} MB")
@@ -114,16 +110,13 @@ def status(options: argparse.Namespace) -> None:
     if lost_files:
         print("listed by their manifest, but not there; run snakemake again, which computes them alone:")
         print("\n".join(f"  {path}" for path in lost_files))
-    for line in (note, *notes):
-        if line:
-            print(line)
+    for line in filter(None, (note, *notes)):
+        print(line)
     if unreadable:
-        print(
-            f"runs that cannot be read: {len(unreadable)}, kept as they are, the first of them",
-            file=sys.stderr,
-        )
-        print(f"  {unreadable[0]}", file=sys.stderr)
-        sys.exit(2)
+        number = f"runs that cannot be read: {len(unreadable)}, kept as they are, the first of them"
+        print(f"{number}\n  {unreadable[0]}", file=sys.stderr)
+        return 2
+    return 0
 
 
 def _print_table(counts: Mapping[str, Mapping[str, int]]) -> None:
