@@ -149,13 +149,6 @@ def _tables(config: Config) -> Iterator[str]:
             yield f"casings.{name}.{error}"
 
 
-def _too_deep(config: Config, entry: AnyCasing, depth: float) -> str | None:
-    casing = casing_spec("", entry)
-    lowest = float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
-    deepest = casing.amplitude * (1 - lowest) + _smallest_clearance(config)
-    return f"at most {deepest:g} m, or the blade touches all around" if depth > deepest else None
-
-
 @reads("casings", "contact", "blade", "coatings")
 def _contact_at_all(config: Config) -> Iterator[str]:
     cases = coating_cases(config)
@@ -169,7 +162,7 @@ def casing_problems(config: Config, name: str) -> Iterator[str]:
     """Say how the depth of a casing is wrong for coatings that have no `interference` of their own."""
     thickness, entry = config.contact.layer_thickness, config.casings[name]
     depth, key = casing_spec(name, entry).interference, f"casings.{name}.interference"
-    bound = _too_deep(config, entry, depth) or _too_shallow(config, depth)
+    bound = _depth_bound(config, entry, depth)
     if entry.plugged("table"):
         if entry.interference is None:
             key = f"casings.{name}.table: interference"
@@ -181,11 +174,16 @@ def casing_problems(config: Config, name: str) -> Iterator[str]:
         yield f"{key} = {depth:g}: must be {bound}"
 
 
-def _too_shallow(config: Config, depth: float) -> str | None:
-    smallest = _smallest_clearance(config)
-    if depth > smallest:
-        return None
-    return f"above the smaller contact.clearance, {smallest:g} m, or the blade never touches"
+def _depth_bound(config: Config, entry: AnyCasing, depth: float) -> str | None:
+    """Say what the depth of a casing must be, where the blade would touch all around, or never."""
+    casing, smallest = casing_spec("", entry), _smallest_clearance(config)
+    lowest = float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
+    deepest = casing.amplitude * (1 - lowest) + smallest
+    if depth > deepest:
+        return f"at most {deepest:g} m, or the blade touches all around"
+    if depth <= smallest:
+        return f"above the smaller contact.clearance, {smallest:g} m, or the blade never touches"
+    return None
 
 
 def _smallest_clearance(config: Config) -> float:
@@ -203,7 +201,7 @@ def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
     if "interference" not in values:
         bound = f"above the interference of the casing, {depth:g} m, or the blade reaches through the coating"
         return ("layer_thickness", bound) if depth >= thickness else None
-    bound = _too_deep(config, casing, depth) or _too_shallow(config, depth)
+    bound = _depth_bound(config, casing, depth)
     if depth >= thickness:
         bound = f"below the layer thickness, {thickness:g} m, or the blade reaches through the coating"
     return ("interference", bound) if bound else None
