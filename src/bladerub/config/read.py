@@ -57,8 +57,10 @@ def read_with_notes(
         from bladerub.settings.study import typed
 
         return typed(converted(located)[0].plain()), []
-    config, notes = _validated(located, "")
-    return config, [*(f"{name}: left out, what reads it is not installed" for name in absent), *notes]
+    config = validate(located)
+    from bladerub.config.notes import notes
+
+    return config, [*(f"{name}: left out, what reads it is not installed" for name in absent), *notes(config)]
 
 
 def vary(config: "Config", *variations: Located) -> Located:
@@ -78,15 +80,9 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> "Confi
     `ConfigError` with every problem found, one line each: location, key, value and what would be right. What
     models cannot say is checked for those sections that agree with theirs.
     """
-    return _validated(config, variation)[0]
-
-
-def _validated(config: Located | Mapping[str, Any], variation: str) -> "tuple[Config, list[str]]":
-    """Check a config as `validate`; return it and the notes on it."""
     # it takes half a second to import, `bladerub --help` and jobs on a cluster do without
     from bladerub.config import quantities
     from bladerub.config.checks import check
-    from bladerub.config.notes import notes
     from bladerub.config.problems import problems as problems_of
     from bladerub.settings.study import required, typed
 
@@ -103,7 +99,7 @@ def _validated(config: Located | Mapping[str, Any], variation: str) -> "tuple[Co
             Problem(location_of(text, locations), (f"{variation}: " if variation else "") + as_typed(text))
             for text in dict.fromkeys(problems)
         )
-    return checked, notes(checked)
+    return checked
 
 
 def _composed(*paths: str | Path, **command_line: Any) -> Located:

@@ -44,11 +44,10 @@ def write(results: str | Path, files: Sequence[str | Path], command_line: Mappin
 
 def read(results: Path) -> Record | None:
     """Read the record of the folder `results`: None if it has none, or a damaged one."""
+    from pydantic import TypeAdapter  # `bladerub --help` does without
+
     try:
-        record = Record(**json.loads((results / FILE).read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError):
-        return None
-    are_names = isinstance(record.files, list) and all(isinstance(name, str) for name in record.files)
-    if not are_names or not isinstance(record.command_line, dict):
+        record = TypeAdapter(Record).validate_json((results / FILE).read_bytes())
+    except (OSError, ValueError):
         return None
     return record if record.files or record.command_line else None
