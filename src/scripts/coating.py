@@ -12,11 +12,11 @@ from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import build_map
-from bladerub.workflow.progress import of_job
+from bladerub.workflow.progress import JobProgress
 
 config, plan = typed(snakemake.config), snakemake.params.plan
 folder = Path(snakemake.params.folder)
-progress = of_job(folder.name, folder)
+progress = JobProgress(folder.name, folder)
 blade = read_reduced_blade(snakemake.input.blade)
 rows = compute_missing(
     config,

@@ -12,16 +12,13 @@ def rules_of_studies(repository: Path) -> tuple[list[Path], list[str]]:
     That is one whose rules, scripts or the modules that these import need a folder of `bladerub.extras` that
     was deleted.
     """
+    present = {path.stem for path in EXTRAS.glob("*") if path.is_dir() or path.suffix == ".py"}
     complete, notes = [], []
     for rules in sorted(repository.glob("studies/*/rules.smk")):
         code = [path.read_text(encoding="utf-8") for path in (rules, *rules.parent.glob("scripts/*.py"))]
-        if missing := sorted(name for name in extras_behind(*code) if not _is_there(name)):
+        if missing := sorted(extras_behind(*code) - present):
             needed = " and ".join(f"bladerub.extras.{name}" for name in missing)
             notes.append(f"without the study {rules.parent.name}, which needs {needed}")
         else:
             complete.append(rules)
     return complete, notes
-
-
-def _is_there(name: str) -> bool:
-    return (EXTRAS / name).is_dir() or (EXTRAS / f"{name}.py").is_file()
