@@ -3,20 +3,18 @@
 from snakemake.utils import min_version
 
 import bladerub.io.errors
-import bladerub.workflow.invocation
-import bladerub.workflow.settings
 from bladerub import plugins
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases
 from bladerub.study.solver import solver_of
-from bladerub.workflow.studies import rules_of_studies
+from bladerub.workflow import invocation
 
 min_version("9.0")
 
 # Snakemake keeps no lines of files, which messages name: the config is read here, before it reads it.
 # STUDY has it as models, for functions; `config` is plain, as Snakemake has it
 with bladerub.io.errors.exit_on_error():
-    STUDY, NOTES, LAID_OVER = bladerub.workflow.settings.read(workflow, config)
+    STUDY, NOTES, LAID_OVER = invocation.read_config(workflow, config)
 
 
 configfile: "config/config.yaml"
@@ -28,25 +26,22 @@ RESULTS = config["results"]
 COATINGS = [case.name for case in coating_cases(STUDY)]
 
 
-RULES_OF_STUDIES, LEFT_OUT = rules_of_studies(ROOT)
+RULES_OF_STUDIES, LEFT_OUT = invocation.rules_of_studies(ROOT)
 
 
 # Not in the jobs, which are processes that read this file as well
 if workflow.is_main_process:
     with bladerub.io.errors.exit_on_error():
-        bladerub.workflow.invocation.plan(
-            RESULTS, LAID_OVER, [*NOTES, *LEFT_OUT], solver_of(STUDY).start
-        )
+        invocation.plan(RESULTS, LAID_OVER, [*NOTES, *LEFT_OUT], solver_of(STUDY).start)
     if workflow.output_settings.dryrun:
-        for forecast in plugins.loaded(
-            "FORECASTS"
-        ).values():  # they take seconds to import
+        # they take seconds to import
+        for forecast in plugins.loaded("FORECASTS").values():
             forecast.announce_at_exit(STUDY, workflow)
 
 
 onstart:
     with bladerub.io.errors.exit_on_error():
-        bladerub.workflow.invocation.start(workflow)
+        invocation.start(workflow)
     for forecast in plugins.loaded("FORECASTS").values():
         forecast.announce(
             STUDY, workflow, workflow.resource_settings.cores, plan_of
@@ -54,11 +49,11 @@ onstart:
 
 
 onsuccess:
-    bladerub.workflow.invocation.finished(RESULTS)
+    invocation.finished(RESULTS)
 
 
 onerror:
-    bladerub.workflow.invocation.stopped()
+    invocation.stopped()
 
 
 wildcard_constraints:

@@ -9,18 +9,12 @@ TABLES = f"{RESULTS}/tables"
 PLOTS = f"{RESULTS}/figures"
 DPI = config["figures"]["dpi"]
 
-CATEGORIES = {
-    name: f"{number}. {name}"  # the report sorts them by name
-    for number, name in enumerate(
-        [
-            "Model",
-            "Wear and spectra",
-            "Moduli of the coating",
-            "Angle of the elements",
-            "Claims",
-        ],
-        1,
-    )
+CATEGORIES = {  # the report sorts them by name
+    "Model": "1. Model",
+    "Wear and spectra": "2. Wear and spectra",
+    "Moduli of the coating": "3. Moduli of the coating",
+    "Angle of the elements": "4. Angle of the elements",
+    "Claims": "5. Claims",
 }
 CAPTIONS = {path.stem: path.as_posix() for path in ROOT.glob("studies/**/report/*.rst")}
 

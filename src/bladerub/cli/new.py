@@ -13,7 +13,6 @@ from bladerub.io.folders import ROOT
 
 _TEMPLATE = Path(__file__).with_name("template")
 _COPIED = ("config", "profiles")
-_OF_THE_PACKAGE = ("__pycache__",)
 
 
 def add_to(commands: Any) -> None:
@@ -36,7 +35,7 @@ def new(options: argparse.Namespace) -> None:
     inputs.require_writable("folder", folder / "Snakefile")
     with refused(OSError):
         for name in _COPIED:
-            shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns(*_OF_THE_PACKAGE))
+            shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copytree(_TEMPLATE, folder, dirs_exist_ok=True)
         (folder / ".gitignore").write_text("results/\n.snakemake/\n", encoding="utf-8")
     install = "" if find_spec("snakemake") else "pip install 'bladerub[study]' && "

@@ -1,21 +1,67 @@
-"""What an invocation of the workflow plans again and clears away of those killed before it."""
+"""An invocation of the workflow: its config and studies, what it plans again, and what it clears away."""
 
 import re
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from bladerub import plugins
 from bladerub.config import record
+from bladerub.config.read import is_whole, read_with_notes
 from bladerub.config.record import Record
 from bladerub.io import atomic, checksum
 from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
-from bladerub.io.folders import CONFIG, provide_for_unknown_user
+from bladerub.io.folders import CONFIG, ROOT, provide_for_unknown_user
 from bladerub.io.garbage import collect_seldom
+from bladerub.io.sources import extras_behind
+from bladerub.plugins import EXTRAS
+from bladerub.settings.study import Config
 from bladerub.study.manifest import ManifestRow, Row, listed_files
+
+
+def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[str], Record]:
+    """Read the config of the study with the lines of its files, which Snakemake does not keep.
+
+    `workflow` is that of the Snakefile, `config` as Snakemake has it before any ``configfile``: what the
+    command line says, or ``config`` of the ``module`` statement of another Snakefile. That is laid over the
+    config of the study here, or of the paper where there is none; files and values of the command line are
+    then of the other workflow. Returns the checked config, the lines of `bladerub.config.notes`, and what was
+    laid over the config of the study. Raises `ConfigError` as `bladerub.config.read.read`.
+    """
+    settings = workflow.config_settings
+    base, laid_over, source = CONFIG, Record(settings.configfiles, settings.config), "--config"
+    if config and config != settings.overwrite_config:
+        base = CONFIG if CONFIG.is_file() and is_whole(CONFIG) else ROOT / CONFIG
+        laid_over, source = Record((), config), "config of the module"
+    study, notes = read_with_notes(
+        base,
+        *laid_over.files,
+        command_line=laid_over.command_line,
+        source=source,
+        is_checked=not workflow.is_main_process,
+    )
+    return study, notes, laid_over
+
+
+def rules_of_studies(repository: Path) -> tuple[list[Path], list[str]]:
+    """Return the rules of the studies in ``studies``, and a line for each that is left out.
+
+    That is one whose rules, scripts or the modules that these import need a folder of `bladerub.extras` that
+    was deleted.
+    """
+    present = {path.stem for path in EXTRAS.glob("*") if path.is_dir() or path.suffix == ".py"}
+    complete, notes = [], []
+    for rules in sorted(repository.glob("studies/*/rules.smk")):
+        code = [path.read_text(encoding="utf-8") for path in (rules, *rules.parent.glob("scripts/*.py"))]
+        if missing := sorted(extras_behind(*code) - present):
+            needed = " and ".join(f"bladerub.extras.{name}" for name in missing)
+            notes.append(f"without the study {rules.parent.name}, which needs {needed}")
+        else:
+            complete.append(rules)
+    return complete, notes
 
 
 def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:

@@ -11,8 +11,7 @@ from bladerub.config.record import Record
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import ROOT
 from bladerub.study.manifest import ManifestRow, write_manifest
-from bladerub.workflow import invocation, settings
-from bladerub.workflow.studies import rules_of_studies
+from bladerub.workflow import invocation
 
 
 @pytest.mark.parametrize(
@@ -65,7 +64,7 @@ def test_the_rules_do_not_import_the_compiler():
         for path in (Path("Snakefile"), *Path("src/rules").iterdir(), *Path("studies").glob("*/rules.smk"))
     ]
     statements = [statement for text in texts for statement in imports.findall(text)]
-    assert "import bladerub.workflow.invocation" in statements
+    assert "from bladerub.workflow import invocation" in statements
     program = "\n".join([*statements, "import sys", "print('numba' in sys.modules)"])
     assert subprocess.check_output([sys.executable, "-c", program], text=True) == "False\n"
 
@@ -82,7 +81,7 @@ def test_a_study_without_its_extra_is_left_out(tmp_path):
         (tmp_path / "studies" / name / "rules.smk").write_text(f'files_behind("extras.{extra}")\n')
     script = tmp_path / "studies" / "three" / "scripts" / "three.py"
     script.write_text("from bladerub.extras.lost import table\n")
-    complete, notes = rules_of_studies(tmp_path)
+    complete, notes = invocation.rules_of_studies(tmp_path)
     assert [path.parent.name for path in complete] == ["one"]
     assert notes == [
         "without the study three, which needs bladerub.extras.lost",
@@ -91,7 +90,7 @@ def test_a_study_without_its_extra_is_left_out(tmp_path):
 
 
 def called_with(files, values, all_values):
-    """What `settings` sees of a workflow that was called with these configs."""
+    """What `read_config` sees of a workflow that was called with these configs."""
     command_line = SimpleNamespace(configfiles=files, config=values, overwrite_config=all_values)
     return SimpleNamespace(config_settings=command_line, is_main_process=True)
 
@@ -104,7 +103,7 @@ def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_pat
     workflow = called_with(files, values, given if files else values)
     for folder in [ROOT] if by_file else [ROOT, tmp_path]:  # there is a study, or none
         monkeypatch.chdir(folder)
-        study, notes, laid_over = settings.read(workflow, given)
+        study, notes, laid_over = invocation.read_config(workflow, given)
         assert (study.solver.revolutions, notes) == (30, [])
         assert list(laid_over.files) == files
         assert by_file or laid_over == Record((), given)
@@ -113,4 +112,4 @@ def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_pat
 def test_a_mistake_in_a_module_statement_is_said_to_be_there(monkeypatch):
     monkeypatch.chdir(ROOT)
     with pytest.raises(BadInput, match=r"^config of the module: solver.revolutions = 0: "):
-        settings.read(called_with([], {}, {}), {"solver": {"revolutions": 0}})
+        invocation.read_config(called_with([], {}, {}), {"solver": {"revolutions": 0}})
