@@ -10,7 +10,7 @@ rule config_reference:
             for path in ROOT.glob("src/bladerub/**/*settings.py")
         ],
         page="docs/config_keys.py",
-        writing=files_behind("config.keys"),
+        writing=files_behind("config.keys", "settings.study"),
     output:
         reference="docs/config.md",
         schema="config/schema.json",
