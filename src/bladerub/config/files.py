@@ -22,10 +22,12 @@ DEEPEST = 32  # levels of mappings and lists
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 _FORTRAN = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[dD][-+]?\d+")
-_OCTAL = re.compile(r"[-+]?0[0-7_]+")
-_HEXADECIMAL = re.compile(r"[-+]?0x[0-9a-fA-F_]+")
-_BINARY = re.compile(r"[-+]?0b[01_]+")
-_SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?")
+_NOT_DECIMAL = {
+    "octal": re.compile(r"[-+]?0[0-7_]+"),
+    "hexadecimal": re.compile(r"[-+]?0x[0-9a-fA-F_]+"),
+    "binary": re.compile(r"[-+]?0b[01_]+"),
+    "of base 60": re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?"),
+}
 _TEMPLATES = "__use_yte__"
 _TAGS = {yaml.MappingNode: "tag:yaml.org,2002:map", yaml.SequenceNode: "tag:yaml.org,2002:seq"}
 
@@ -123,10 +125,13 @@ def read(path: str | Path, key: str | None = None, location: Location = UNKNOWN)
     try:
         located = _Loader(text).read(source)
     except yaml.YAMLError as error:
-        mark, position = getattr(error, "problem_mark", None), getattr(error, "position", None)
-        line, column = (mark.line + 1, mark.column + 1) if mark else _line_and_column(text, position)
-        problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
-        what = f"not valid YAML ({' '.join(problem.split())})" + (f", column {column}" if column else "")
+        if isinstance(error, yaml.reader.ReaderError):  # a character that YAML does not have
+            before, problem = text[: error.position], error.reason
+            line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        else:
+            line, column = error.problem_mark.line + 1, error.problem_mark.column + 1
+            problem = " ".join(error.problem.split())
+        what = f"not valid YAML ({problem}), column {column}"
         raise ConfigError.at(Location(source, line), what) from error
     if not isinstance(located.content, dict):
         raise ConfigError.at(Location(source), "must hold keys at its top level, as config/config.yaml does")
@@ -134,13 +139,6 @@ def read(path: str | Path, key: str | None = None, location: Location = UNKNOWN)
         reason = "is not for configs: Snakemake runs its templates"
         raise ConfigError.at(located.content[_TEMPLATES].location, f"{_TEMPLATES}: {reason}")
     return located
-
-
-def _line_and_column(text: str, position: int | None) -> tuple[int, int]:
-    """Count both from 1 at the `position` in `text`; they are 0 where it is not known."""
-    if position is None:
-        return 0, 0
-    return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)
 
 
 class _Loader(yaml.SafeLoader):
@@ -212,8 +210,7 @@ class _Loader(yaml.SafeLoader):
 
 def yaml_reading(text: str) -> str | None:
     """Say what YAML 1.1 makes of a number that is not in decimals, ``16, as octal``; None of others."""
-    kinds = {"octal": _OCTAL, "hexadecimal": _HEXADECIMAL, "binary": _BINARY, "of base 60": _SEXAGESIMAL}
-    kind = next((name for name, form in kinds.items() if form.fullmatch(text)), None)
+    kind = next((name for name, form in _NOT_DECIMAL.items() if form.fullmatch(text)), None)
     return kind and f"{yaml.safe_load(text)}, as {kind}"
 
 
