@@ -1,7 +1,7 @@
 """Coatings of the study: abradable ones, those with Coulomb friction, and direct contact with the casing."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from pydantic import Discriminator, Field, Tag
 
@@ -107,22 +107,22 @@ def _kind(entry: Any) -> str | None:
     return "friction" if "friction" in entry else "layer"
 
 
-_KIND = Discriminator(
-    _kind,
-    custom_error_type="kind",
-    custom_error_message="must be rigid; an abradable coating has no such key",
-    custom_error_context={"within": "coating"},
-)
-
+Layer = TypeVar("Layer")
+WithFriction = TypeVar("WithFriction")
+Direct = TypeVar("Direct")
+_Entry = Annotated[
+    Annotated[Layer, Tag("layer")]
+    | Annotated[WithFriction, Tag("friction")]
+    | Annotated[Direct, Tag("rigid")],
+    Discriminator(
+        _kind,
+        custom_error_type="kind",
+        custom_error_message="must be rigid; an abradable coating has no such key",
+        custom_error_context={"within": "coating"},
+    ),
+]
 Coatings = Annotated[
-    list[
-        Annotated[
-            Annotated[Coating, Tag("layer")]
-            | Annotated[CoatingWithFriction, Tag("friction")]
-            | Annotated[RigidCoating, Tag("rigid")],
-            _KIND,
-        ]
-    ],
+    list[_Entry[Coating, CoatingWithFriction, RigidCoating]],
     Field(
         min_length=1,
         max_length=1000,
@@ -132,14 +132,7 @@ Coatings = Annotated[
     ),
 ]
 Histories = Annotated[
-    list[
-        Annotated[
-            Annotated[History, Tag("layer")]
-            | Annotated[HistoryWithFriction, Tag("friction")]
-            | Annotated[HistoryOfDirectContact, Tag("rigid")],
-            _KIND,
-        ]
-    ],
+    list[_Entry[History, HistoryWithFriction, HistoryOfDirectContact]],
     Field(
         max_length=10000,
         description="Runs whose whole displacement is kept, those of Figs. 17 and 18. Those that the study "
