@@ -43,14 +43,6 @@ def map_of(case):
     return f"{RESULTS}/maps/{case.name}.h5"
 
 
-def runs_at(f_omega):
-    """Runs whose displacement is kept, straight and inclined; they are next to the manifests."""
-    return [
-        f"{RESULTS}/runs/{case.name}/{speed_name(f_omega)}.h5"
-        for case in (STRAIGHT, INCLINED)
-    ]
-
-
 def part_of_run(case, part):
     """One part of what is simulated on a coating; looked up only for a figure that is planned."""
     return lambda wildcards: asdict(getattr(run_spec(STUDY, case, 0.0), part))
@@ -312,11 +304,14 @@ rule histograms:
         "../scripts/histograms.py"
 
 
-# Runs of each: Figs. 17 and 18, and the same at speeds of our own
+# Runs of each, which are next to the manifests: Figs. 17 and 18, and the same at speeds of our own
 HISTORIES = {
     {0.190: "fig17_history_0190", 0.197: "fig18_history_0197"}.get(
         f_omega, f"history_{speed_name(f_omega)}"
-    ): runs_at(f_omega)
+    ): [
+        f"{RESULTS}/runs/{case.name}/{speed_name(f_omega)}.h5"
+        for case in (STRAIGHT, INCLINED)
+    ]
     for f_omega in BOTH
 }
 

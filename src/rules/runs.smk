@@ -43,10 +43,6 @@ def coating_threads(wildcards):
     return share_of_cores(job_costs().runs.get(wildcards.coating, len(speeds(STUDY))))
 
 
-def coating_priority(wildcards):
-    return priority_of(wildcards.coating, job_costs())
-
-
 def coating_minutes(wildcards, attempt):
     return minutes_for(plan_of(wildcards.coating).runs, attempt)
 
@@ -92,7 +88,7 @@ rule coating:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
-    priority: coating_priority
+    priority: lambda wildcards: priority_of(wildcards.coating, job_costs())
     group:
         "rubs"
     threads: coating_threads
