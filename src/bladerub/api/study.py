@@ -14,7 +14,6 @@ from bladerub.api.planned import Quantity, StudyCoating, StudyRun, checked_numbe
 from bladerub.blade.cache import kept_frequency
 from bladerub.config import read as configuration
 from bladerub.config.checks import own_problem
-from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
 from bladerub.settings.coatings import History, HistoryOfDirectContact, HistoryWithFriction, OnCasing
@@ -96,7 +95,7 @@ class Study(Shown):
             for name in reversed(settings.split(".")):
                 value = {name: value}
             settings = value
-        overlay = Located.of(settings, UNKNOWN)
+        overlay = Located.of(settings)
         return replace(self, config=configuration.validate(configuration.vary(self.config, overlay)))
 
     @property

@@ -43,7 +43,7 @@ class Located(NamedTuple):
     location: Location
 
     @classmethod
-    def of(cls, value: Any, location: Location) -> "Located":
+    def of(cls, value: Any, location: Location = UNKNOWN) -> "Located":
         """Give `value` and all that is in it the same location."""
         if isinstance(value, Mapping):
             return cls({str(key): cls.of(entry, location) for key, entry in value.items()}, location)

@@ -27,13 +27,11 @@ def problems(values: Any, kind: Any = None) -> Iterator[str]:
     Numbers that other keys limit are compared where both parts of the config are as they must be.
     """
     kind = kind or whole()
-    key = _key(kind)
+    key, mistakes = _key(kind), []
     try:
         _adapter(kind).validate_python(values)
     except ValidationError as error:
         mistakes = error.errors(include_url=False)
-    else:
-        mistakes = []
     lines = sorted({_line(mistake, key, values) for mistake in mistakes})
     yield from lines
     if isinstance(values, Mapping):

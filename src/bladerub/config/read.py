@@ -65,7 +65,7 @@ def read_with_notes(
 
 def vary(config: "Config", *variations: Located) -> Located:
     """Lay variations of a plan over a config, without a check."""
-    varied = Located.of(config.plain(), UNKNOWN)
+    varied = Located.of(config.plain())
     for variation in variations:
         if variation.content is not None:
             varied = varied.merged(variation)
@@ -86,7 +86,7 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> "Confi
     from bladerub.config.problems import problems as problems_of
     from bladerub.settings.study import required, typed
 
-    given = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
+    given = config if isinstance(config, Located) else Located.of(config)
     located, problems = quantities.converted(given)
     values, locations = located.plain(), located.locations()
     problems += problems_of(values)
@@ -106,7 +106,7 @@ def _composed(*paths: str | Path, **command_line: Any) -> Located:
     """Lay files and the command line over the defaults of what plugs in."""
     from bladerub.settings.study import defaults
 
-    return Located.of(defaults(), UNKNOWN).merged(files.compose(*paths, **command_line))
+    return Located.of(defaults()).merged(files.compose(*paths, **command_line))
 
 
 def _absent(config: Located) -> list[str]:
