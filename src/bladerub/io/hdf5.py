@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 import h5py
 import numpy as np
@@ -52,16 +52,9 @@ def write(
     dimension.
     """
     data = {name: np.asarray(variable.data) for name, variable in variables.items()}
-    blank = _blank(
+    blank, start = _blank(
         tuple(
-            _Layout(
-                name,
-                variable.dims,
-                data[name].shape,
-                data[name].dtype.str,
-                variable.units,
-                variable.long_name,
-            )
+            (name, variable.dims, data[name].shape, data[name].dtype.str, variable.units, variable.long_name)
             for name, variable in variables.items()
         ),
         tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items()),
@@ -69,9 +62,9 @@ def write(
         tuple((key, value) for key, value in attributes.items() if key in repeated),
         tuple(origin.items()),
     )
-    image = bytearray(blank.image)
-    for name, start in blank.start.items():
-        image[start : start + data[name].nbytes] = data[name].tobytes()
+    image = bytearray(blank)
+    for name, place in start.items():
+        image[place : place + data[name].nbytes] = data[name].tobytes()
     with h5py.File(h5py.h5f.open_file_image(image, flags=_READ_AND_WRITE)) as file:
         # past h5py's own indexing, which takes longer than the writing
         for key, value in attributes.items():
@@ -79,7 +72,7 @@ def write(
                 attribute = h5py.h5a.open(file.id, key.encode())
                 attribute.write(np.asarray(value, attribute.dtype))
         for name, values in data.items():
-            if name in repeated or name in blank.start:
+            if name in repeated or name in start:
                 continue
             if values.dtype.kind == "U":
                 file[name][...] = values
@@ -93,29 +86,15 @@ def write(
     return hashlib.sha256(image).hexdigest()
 
 
-class _Layout(NamedTuple):
-    """A dataset without its values."""
-
-    name: str
-    dims: tuple[str, ...]
-    shape: tuple[int, ...]
-    kind: str
-    units: str
-    long_name: str
-
-
-class _Blank(NamedTuple):
-    """A file with names, units, scales and what is the same in many files."""
-
-    image: bytes
-    start: dict[str, int]  # where in it the values of a dataset go that is neither compressed nor text
-
-
 @lru_cache(maxsize=8)
 def _blank(
     layout: tuple, attributes: tuple, values: tuple, repeated_attributes: tuple, origin: tuple
-) -> _Blank:
-    """Make a file without values but those given: the rest takes several times as long as filling it."""
+) -> tuple[bytes, dict[str, int]]:
+    """Make a file without values but those given: the rest takes several times as long as filling it.
+
+    `layout` has name, dimensions, shape, type, unit and meaning of each dataset. Returns the file, and where
+    in it the values of a dataset go that is neither compressed nor text.
+    """
     contents = dict(values)
     with h5py.File(io.BytesIO(), "w") as file:
         for key, kind in attributes:
@@ -150,7 +129,7 @@ def _blank(
                 file[name][...] = np.zeros(shape, kind)  # or it has no place yet
                 start[name] = file[name].id.get_offset()
         file.flush()
-        return _Blank(file.id.get_file_image(), start)
+        return file.id.get_file_image(), start
 
 
 def _dataset(
@@ -201,16 +180,11 @@ def opened(path: str | Path) -> Iterator[h5py.File]:
     except DamagedFile:
         raise
     except (OSError, RuntimeError, KeyError, ValueError) as error:  # h5py raises any of them
-        code = getattr(error, "errno", None) or _system_error(error)
+        number = re.search(r"errno = (\d+)", str(error))  # by which HDF5 reports an error of the system
+        code = getattr(error, "errno", None) or int(number[1] if number else 0)
         if code:  # of the system: missing, or not ours to read
             raise OSError(code, os.strerror(code), str(path)) from error
         raise DamagedFile(f"{path}: not a readable HDF5 file ({error})") from error
-
-
-def _system_error(error: Exception) -> int:
-    """Return the number of the system's error that HDF5 reports of a read, 0 if it reports none."""
-    number = re.search(r"errno = (\d+)", str(error))
-    return int(number[1]) if number else 0
 
 
 def _content(
