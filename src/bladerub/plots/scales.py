@@ -72,3 +72,6 @@ class Scales:
         if self.length is None:
             return np.zeros(coating.f_omega.size, dtype=bool)
         return np.nan_to_num(coating.revolution_peak).max(axis=1) >= LARGE_DISPLACEMENT * self.length
+
+
+UNKNOWN = Scales()

@@ -4,12 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from bladerub.plots import bins, engine_orders, titles
-from bladerub.plots.scales import LARGE, Scales, greatest
+from bladerub.plots.scales import LARGE, UNKNOWN, Scales, greatest
 from bladerub.plots.style import (
     AMPLITUDE_MAP,
     BLUE,
@@ -51,30 +50,24 @@ def _draw_alone(
     coating: CoatingMap,
     amplitude_range: tuple[float, float],
     f_max: float,
-    scales: Scales | None = None,
+    scales: Scales = UNKNOWN,
 ) -> None:
-    scales = scales or Scales()
-    mesh = _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
-    axes.set_title(titles.coating(coating.case, scales.modulus_unit), loc="left", pad=16)
-    _add_colour_bar(axes, mesh)
+    _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
     axes.legend(loc="lower right")
 
 
 @on_axes(_draw_alone)
 def spectrum_map(
-    coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float, scales: Scales | None = None
+    coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float, scales: Scales = UNKNOWN
 ) -> Figure:
     """Draw Figs. 7, 8, 9, 15 and 16: f horizontally, f_Ω vertically, amplitude in colour.
 
     `amplitude_range` are the ends of the logarithmic colour scale, m, `f_max` is that of the frequency axis,
     normalised.
     """
-    scales = scales or Scales()
     figure = new_figure(PAGE, 0.62 * PAGE)
     axes = figure.add_subplot()
-    mesh = _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
-    axes.set_title(titles.coating(coating.case, scales.modulus_unit), pad=16)
-    _add_colour_bar(axes, mesh)
+    _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
     _add_legend(axes, scales)
     return figure
 
@@ -85,18 +78,15 @@ def peak_sections(
     sections: list[PeakSection],
     amplitude_range: tuple[float, float],
     f_max: float,
-    scales: Scales | None = None,
+    scales: Scales = UNKNOWN,
 ) -> Figure:
     """Draw Fig. 10: the spectrum with Y_k marked (a), the amplitude along eo(k) with its window (b).
 
     There are one or two `sections`; the other arguments are as of `spectrum_map`.
     """
-    scales = scales or Scales()
     figure = new_figure(PAGE, 0.66 * PAGE)
     spectrum, curves = figure.subplots(1, 2, sharey=True, width_ratios=[1.5, 1])
-    mesh = _draw_spectrum(spectrum, coating, amplitude_range, f_max, scales)
-    spectrum.set_title("(a) " + titles.coating(coating.case, scales.modulus_unit), pad=16)
-    _add_colour_bar(spectrum, mesh, location="bottom", aspect=40)
+    _draw_spectrum(spectrum, coating, amplitude_range, f_max, scales, "(a) ", location="bottom", aspect=40)
     _add_legend(spectrum, scales)
     ray = coating.f_omega[-1] * np.array([0, 1])
     for section, look in zip(sections, _LOOKS, strict=False):
@@ -115,8 +105,14 @@ def peak_sections(
 
 
 def _draw_spectrum(
-    axes: Axes, coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float, scales: Scales
-) -> QuadMesh:
+    axes: Axes,
+    coating: CoatingMap,
+    amplitude_range: tuple[float, float],
+    f_max: float,
+    scales: Scales,
+    panel: str = "",
+    **colour_bar,
+) -> None:
     speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.spectrum_amplitude)
     order_edges = np.maximum(bins.edges(coating.spectrum_order), 0)
     frequency_edges = np.outer(speed_edges, order_edges)
@@ -149,7 +145,9 @@ def _draw_spectrum(
         xlabel=r"frequency $f\,/\,f_1(0)$",
         ylabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
     )
-    return mesh
+    axes.set_title(panel + titles.coating(coating.case, scales.modulus_unit), pad=16)
+    label = "amplitude of node 1, radial (mm, log scale)"
+    axes.figure.colorbar(mesh, ax=axes, label=label, extend="both", pad=0.015, **colour_bar)
 
 
 def _add_legend(axes: Axes, scales: Scales) -> None:
@@ -158,11 +156,6 @@ def _add_legend(axes: Axes, scales: Scales) -> None:
         axes.figure.legend(*handles, loc="outside lower center", ncols=4)
     else:
         axes.legend(loc="lower right", title="grey: not computed", title_fontsize=7)
-
-
-def _add_colour_bar(axes: Axes, mesh: QuadMesh, **place) -> None:
-    label = "amplitude of node 1, radial (mm, log scale)"
-    axes.figure.colorbar(mesh, ax=axes, label=label, extend="both", pad=0.015, **place)
 
 
 def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: dict) -> None:

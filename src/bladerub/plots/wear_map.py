@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots import bins, titles
-from bladerub.plots.scales import LARGE, Scales
+from bladerub.plots.scales import LARGE, UNKNOWN, Scales
 from bladerub.plots.style import DARK, MISSING, PAGE, RED, WEAR_MAP, new_figure, on_axes
 from bladerub.study.maps import CoatingMap
 
@@ -36,19 +36,18 @@ def _name_speeds(axes: Axes, scales: Scales) -> None:
         scales.engine.add_speeds(axes, "x")
 
 
-def _draw_alone(axes: Axes, coating: CoatingMap, scales: Scales | None = None) -> None:
-    _draw_wear(axes, coating, scales or Scales())
-    _name_speeds(axes, scales or Scales())
+def _draw_alone(axes: Axes, coating: CoatingMap, scales: Scales = UNKNOWN) -> None:
+    _draw_wear(axes, coating, scales)
+    _name_speeds(axes, scales)
 
 
 @on_axes(_draw_alone)
-def wear_map(coating: CoatingMap, scales: Scales | None = None) -> Figure:
+def wear_map(coating: CoatingMap, scales: Scales = UNKNOWN) -> Figure:
     """Draw Fig. 6: worn depth over speed and casing angle, below it the number of worn lobes.
 
     Runs that exceeded the displacement limit are crossed below: their wear is that of their early end. Those
     with a displacement beyond small ones are ringed. Axes that are given hold the upper diagram.
     """
-    scales = scales or Scales()
     figure = new_figure(PAGE, 0.68 * PAGE)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
     _draw_wear(upper, coating, scales)
@@ -56,13 +55,9 @@ def wear_map(coating: CoatingMap, scales: Scales | None = None) -> Figure:
     _name_speeds(lower, scales)
     if scales.engine:
         scales.engine.draw_nominal_speed(lower.axvline, in_legend=False)
-    legend = {}
-    for axes in (lower, upper):
-        handles, labels = axes.get_legend_handles_labels()
-        legend |= dict(zip(labels, handles, strict=True))
-    if len(legend) > 1:
-        names = {"handles": legend.values(), "labels": legend.keys()}
-        figure.legend(**names, loc="outside lower center", ncols=4, handletextpad=0.4)
+    handles = [handle for axes in (lower, upper) for handle in axes.get_legend_handles_labels()[0]]
+    if len(handles) > 1:
+        figure.legend(handles=handles, loc="outside lower center", ncols=4, handletextpad=0.4)
     return figure
 
 
