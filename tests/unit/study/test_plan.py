@@ -6,7 +6,7 @@ import math
 import pytest
 from study_fixtures import changed
 
-from bladerub.extras.export.claimed import claimed_run
+from bladerub.extras.export.recording import claimed_run
 from bladerub.io import provenance
 from bladerub.study import grid, plan
 from bladerub.study.grid import CoatingCase, run_spec

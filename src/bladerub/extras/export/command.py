@@ -92,31 +92,28 @@ def export(options: argparse.Namespace) -> None:
 
 def _motion(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     """Write the motion of a run; return what was written."""
-    _check_new(options, config, "vtu")
+    run, plan, blade, config = _run_of_file(options, config, "vtu")
 
     from bladerub.extras.export.vtu import COLLECTION, read_mesh, write_motion
-    from bladerub.extras.rows.spec import Row
     from bladerub.extras.stress.run import stress_of
     from bladerub.io.provenance import provenance
 
-    run, blade, config = _run_and_blade(options, config)
     with refused(OSError):
         mesh = read_mesh(blade.mesh_path, blade.reduced)
         stress = stress_of(blade.mesh_path, run.attributes["f_omega"])
-    plan = _plan(options, config, run, blade.path)
-    row = plan.row or Row.even(1)
-    recording = _record(options, run, plan, blade.reduced, row, all_revolutions=False)
+    recording = _record(options, run, plan, blade.reduced, all_revolutions=False)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
     about = {name: run.attributes[name] for name in names} | provenance(config.plain())
     with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
         largest = write_motion(options.vtu, mesh, recording, about, stress, plan.row)
+    blades, revolutions = recording.revolution_peak.shape
     return {
         "collection": str(options.vtu / COLLECTION),
         "samples": options.samples,
-        "revolution": recording.revolution_peak.shape[1],
-        "blades": len(row.blades),
-        "nodes": len(row.blades) * len(mesh["points"]),
-        "elements": len(row.blades) * len(mesh["cells"]),
+        "revolution": revolutions,
+        "blades": blades,
+        "nodes": blades * len(mesh["points"]),
+        "elements": blades * len(mesh["cells"]),
         **largest,
         "displacement_over_length": largest["largest_displacement"] / blade.reduced.length,
         "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
@@ -125,65 +122,66 @@ def _motion(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
 
 def _animation(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     """Write the animation of a run; return what was written."""
-    if options.animation.suffix.lower() != ".gif":
-        raise BadInput(f"--animation {options.animation}: must end in .gif")
-    _check_new(options, config, "animation")
+    path = options.animation
+    if path.suffix.lower() != ".gif":
+        raise BadInput(f"--animation {path}: must end in .gif")
+    run, plan, blade, _ = _run_of_file(options, config, "animation")
 
     from bladerub.extras.export.animation import animate
-    from bladerub.extras.rows.spec import Row
 
-    run, blade, config = _run_and_blade(options, config)
-    plan = _plan(options, config, run, blade.path)
-    row = plan.row or Row.even(1)
-    recording = _record(options, run, plan, blade.reduced, row, all_revolutions=True)
-    with refused(OSError, because=f"--animation {options.animation}: cannot be written: "):
-        animate(options.animation, recording, blade.reduced, row, run.attributes)
+    recording = _record(options, run, plan, blade.reduced, all_revolutions=True)
+    with refused(OSError, because=f"--animation {path}: cannot be written: "):
+        animate(path, recording, blade.reduced, _row(plan), run.attributes)
+    blades, revolutions = recording.revolution_peak.shape
     return {
-        "animation": str(options.animation),
+        "animation": str(path),
         "samples": options.samples,
-        "revolutions": recording.revolution_peak.shape[1],
-        "blades": len(row.blades),
+        "revolutions": revolutions,
+        "blades": blades,
         "greatest_wear": float(recording.wear.max()),
-        "bytes": options.animation.stat().st_size,
+        "bytes": path.stat().st_size,
     }
 
 
-def _check_new(options: argparse.Namespace, config: "Config", form: str) -> None:
+def _run_of_file(
+    options: argparse.Namespace, config: "Config", form: str
+) -> "tuple[StoredRun, PlannedRun, Blade, Config]":
+    """Read the run whose motion is written to a new file or folder, plan it again, and read its blade."""
     inputs.require(options, samples=(1, config.contact.elements))
-    path = getattr(options, form)
-    if path.exists():
+    target = getattr(options, form)
+    if target.exists():
         kind = "folder" if form == "vtu" else "file"
-        raise BadInput(f"--{form} {path}: is there already, must be a new {kind}")
-    inputs.require_writable(form, path)
+        raise BadInput(f"--{form} {target}: is there already, must be a new {kind}")
+    inputs.require_writable(form, target)
 
-
-def _run_and_blade(options: argparse.Namespace, config: "Config") -> "tuple[StoredRun, Blade, Config]":
+    from bladerub.extras.export.recording import claimed_run
     from bladerub.study import run_set
+    from bladerub.study.cache import blade_digest
 
     with refused(OSError, because="--run "):
         run = run_set.read(options.run)[""]
     path = inputs.blade_path(options, config)
     if not path.exists():
         raise BadInput(f"{path}: is missing; name the blade of the run with --blade, or its --config")
-    return run, *inputs.read_blade(options, config)
-
-
-def _plan(options: argparse.Namespace, config: "Config", run: "StoredRun", blade: Path) -> "PlannedRun":
-    from bladerub.extras.export.claimed import claimed_run
-    from bladerub.study.cache import blade_digest
-
+    blade, config = inputs.read_blade(options, config)
     try:
         plan = claimed_run(config, options.run.name, run)
     except KeyError as error:
         raise BadInput(f"--run {options.run}: {error} is not known; must be a run of this config") from error
     except (TypeError, ValueError) as error:
         raise BadInput(f"--run {options.run}: its attributes are not those of a run ({error})") from error
-    if plan.key(blade_digest(blade)) != run.attributes["run_key"]:
+    if plan.key(blade_digest(path)) != run.attributes["run_key"]:
         raise BadInput(
-            f"--run {options.run}: is not of this config, the blade {blade} and this version of the solver "
+            f"--run {options.run}: is not of this config, the blade {path} and this version of the solver "
             "(its run_key differs); name those of the run with --config and --blade, or compute it again"
         )
-    return plan
+    return run, plan, blade, config
+
+
+def _row(plan: "PlannedRun") -> "Row":
+    from bladerub.extras.rows.spec import Row
+
+    return plan.row or Row.even(1)
 
 
 def _record(
@@ -191,7 +189,6 @@ def _record(
     run: "StoredRun",
     plan: "PlannedRun",
     blade: "ReducedBlade",
-    row: "Row",
     all_revolutions: bool,
 ) -> "Recording":
     """Record the last complete revolution of a run, or `all_revolutions` up to it."""
@@ -210,12 +207,9 @@ def _record(
     instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
     compile_kernel(n_nodes=blade.n_interface, law=plan.spec.coating.element_law)
     with inputs.progress_bar(last, "rev") as bar:
+        elements = (before * n_elements + instants).tolist()
         recording = record(
-            blade,
-            plan.spec,
-            row,
-            (before * n_elements + instants).tolist(),
-            progress=lambda revolutions: bar.update(revolutions - bar.n),
+            blade, plan.spec, _row(plan), elements, progress=lambda done: bar.update(done - bar.n)
         )
     blade_index = run.attributes.get("blade", 1) - 1  # whose peaks are stored
     stored = run.data["revolution_peak"][:last]

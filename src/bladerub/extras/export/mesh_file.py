@@ -36,9 +36,8 @@ def write_mesh_file(
     elif suffix == ".msh":
         mesh = _with_physical_groups(points, cells, node_sets)
     else:
-        marks = {name: np.zeros(len(points), dtype=np.int8) for name in node_sets}
-        for name, nodes in node_sets.items():
-            marks[name][nodes] = 1
+        number = np.arange(len(points))
+        marks = {name: np.isin(number, nodes).astype(np.int8) for name, nodes in node_sets.items()}
         mesh = meshio.Mesh(points, [block(points, cells)], point_data=marks | dict(fields or {}))
     with TemporaryDirectory() as scratch, atomic.writing(path, "wb") as stream:
         file = Path(scratch) / f"mesh{suffix}"  # meshio wants a path

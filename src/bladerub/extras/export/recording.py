@@ -1,6 +1,7 @@
-"""The motion of whole blades at some instants of a run, which the run itself does not keep."""
+"""A run of a file computed again, with the motion of whole blades at some instants, which the file lacks."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -14,6 +15,11 @@ from bladerub.contact.spec import RunSpec
 from bladerub.contact.strips import by_angle
 from bladerub.extras.rows.row import set_up_row
 from bladerub.extras.rows.spec import Row
+from bladerub.settings.study import Config
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.plan import PlannedRun, planned_run
+from bladerub.study.solver import rows
+from bladerub.study.store import StoredRun
 
 
 class Recording(NamedTuple):
@@ -26,6 +32,20 @@ class Recording(NamedTuple):
     # (N, r): Largest absolute radial displacement of node 1 of each blade in each revolution that was
     # computed to its end, m; NaN where it was at rest
     revolution_peak: np.ndarray
+
+
+def claimed_run(config: Config, file: str, run: StoredRun) -> PlannedRun:
+    """Plan again what a stored run says it is; its own key shows whether `config` and blade made it.
+
+    Raises `KeyError` if the file lacks an attribute of a run, or the config its casing.
+    """
+    attributes, case = run.attributes, CoatingCase.described(run.attributes)
+    spec = replace(run_spec(config, case, attributes["f_omega"]), revolutions=attributes["revolutions"])
+    # as of a short run asked for alone
+    shortest = min(config.analysis.spectrum_revolutions, spec.revolutions)
+    config = config.replaced("analysis.spectrum_revolutions", shortest)
+    row = rows().stored(run) if "row" in run.data else None
+    return planned_run(config, spec, file, "radial_displacement" in run.data, row)
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
