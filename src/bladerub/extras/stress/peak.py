@@ -70,27 +70,16 @@ def _six(tensor: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     return tensor[nodes][:, _ROWS, _COLUMNS].T
 
 
-def von_mises(stress: np.ndarray) -> np.ndarray:
-    """Von Mises stress (...) of six components (6, ...), in their unit."""
-    return _von_mises(*stress)
-
-
-def principal(stress: np.ndarray) -> np.ndarray:
-    """Largest principal stress (...) of six components (6, ...), in their unit.
-
-    It is the largest root of the characteristic polynomial in trigonometric form.
-    """
-    return _principal(*stress)
-
-
 @register_jitable
-def _von_mises(x, y, z, xy, yz, zx):
+def von_mises(x, y, z, xy, yz, zx):
+    """Von Mises stress of the six components, numbers or arrays, in their unit."""
     return np.sqrt(0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) + 3 * (xy * xy + yz * yz + zx * zx))
 
 
 @register_jitable
-def _principal(x, y, z, xy, yz, zx):
-    radius = _von_mises(x, y, z, xy, yz, zx) / 3
+def principal(x, y, z, xy, yz, zx):
+    """Largest principal stress: the largest root of the characteristic polynomial in trigonometric form."""
+    radius = von_mises(x, y, z, xy, yz, zx) / 3
     mean = (x + y + z) / 3
     x, y, z = x - mean, y - mean, z - mean
     j3 = x * y * z + 2 * xy * yz * zx - x * yz * yz - y * zx * zx - z * xy * xy
@@ -166,18 +155,18 @@ def _largest(values):
         for instant in range(n_instants):
             x, y, z = values[0, node, instant], values[1, node, instant], values[2, node, instant]
             xy, yz, zx = values[3, node, instant], values[4, node, instant], values[5, node, instant]
-            mises = _von_mises(x, y, z, xy, yz, zx)
+            mises = von_mises(x, y, z, xy, yz, zx)
             over_nodes[instant] = max(over_nodes[instant], mises)
             if mises > largest[0, node]:
                 largest[0, node], instants[0, node] = mises, instant
             if (x + y + z + 2 * mises) / 3 > largest[1, node]:
-                first = _principal(x, y, z, xy, yz, zx)
+                first = principal(x, y, z, xy, yz, zx)
                 if first > largest[1, node]:
                     largest[1, node], instants[1, node] = first, instant
             for component, value in enumerate((x, y, z, xy, yz, zx)):
                 low[component], high[component] = min(low[component], value), max(high[component], value)
         half = (high - low) / 2
-        largest[2, node] = _von_mises(half[0], half[1], half[2], half[3], half[4], half[5])
+        largest[2, node] = von_mises(half[0], half[1], half[2], half[3], half[4], half[5])
     return largest, instants, over_nodes
 
 
@@ -186,13 +175,13 @@ def stressed_nodes(stress: ModalStress, share: float) -> np.ndarray:
 
     Much is the `share` of the largest von Mises stress by the same cause.
     """
-    parts = von_mises(np.moveaxis(np.concatenate([stress.static[None], stress.slope]), 1, 0))
+    parts = von_mises(*np.moveaxis(np.concatenate([stress.static[None], stress.slope]), 1, 0))
     return np.flatnonzero((parts > share * parts.max(axis=1, keepdims=True)).any(axis=0))
 
 
 def static_peak(stress: ModalStress) -> dict[str, float]:
     """Find the largest stress at the running position: ``von_mises`` and ``principal``, as `stress_peaks`."""
-    largest = {"von_mises": von_mises(stress.static), "principal": principal(stress.static)}
+    largest = {"von_mises": von_mises(*stress.static), "principal": principal(*stress.static)}
     mises, first = (_at(stress, name, values.max(), int(values.argmax())) for name, values in largest.items())
     return mises | first
 

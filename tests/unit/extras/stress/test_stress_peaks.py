@@ -20,9 +20,9 @@ def test_invariants_are_those_of_the_eigenvalues_and_peaks_of_one_vibrating_coor
     tensor = np.random.default_rng(1).normal(size=(50, 3, 3))
     tensor += np.swapaxes(tensor, 1, 2)
     values = np.linalg.eigvalsh(tensor)
-    np.testing.assert_allclose(principal(six(tensor)), values[:, 2], atol=1e-9)
+    np.testing.assert_allclose(principal(*six(tensor)), values[:, 2], atol=1e-9)
     squares = sum((values[:, k] - values[:, k - 1]) ** 2 for k in range(3)) / 2
-    np.testing.assert_allclose(von_mises(six(tensor)), np.sqrt(squares))
+    np.testing.assert_allclose(von_mises(*six(tensor)), np.sqrt(squares))
 
     def tension(displacement):  # zz grows with the displacement along z
         return (5.0 + displacement[:, 2])[:, None, None] * np.diag([0, 0, 1])
@@ -48,10 +48,10 @@ def test_the_largest_of_all_nodes_and_instants_is_found_in_each_part():
     for part, found in zip(parts, stress_peaks(stress, coordinates, time, parts), strict=True):
         values = stress(coordinates[part])
         for name, of in (("von_mises", von_mises), ("principal", principal)):
-            whole = of(values)
+            whole = of(*values)
             assert found[name] == pytest.approx(whole.max())
             assert found[f"{name}_time"] == time[part][np.unravel_index(whole.argmax(), whole.shape)[1]]
-        assert found["alternating"] == pytest.approx(von_mises(np.ptp(values, axis=-1) / 2).max())
+        assert found["alternating"] == pytest.approx(von_mises(*np.ptp(values, axis=-1) / 2).max())
     patterns = np.random.default_rng(2).normal(size=(3, 4))
     np.testing.assert_allclose(stress.of(patterns)(coordinates[:, :3]), stress(coordinates[:, :3] @ patterns))
 
