@@ -31,13 +31,8 @@ def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
         axes.plot(*_coordinates(safe), "s", **look)
         for place in _labelled(best, chart):
             coating = best.iloc[place]
-            axes.annotate(
-                f"E {coating.E:g}, K {coating.K:g}",
-                (1e3 * coating.peak, 1e6 * coating.worn_volume),
-                xytext=(5, 4),
-                textcoords="offset points",
-                fontsize=6.5,
-            )
+            name, note = f"E {coating.E:g}, K {coating.K:g}", {"textcoords": "offset points", "fontsize": 6.5}
+            axes.annotate(name, _coordinates(coating), (5, 4), **note)
         axes.set(xscale="log", yscale="log", xlabel="greatest displacement of node 1 (mm)")
         label_1_2_5(axes.xaxis)
         axes.set_title(titles.panel(index, rf"$\theta$ = {theta:g} rad"))
@@ -59,5 +54,6 @@ def _labelled(front: pd.DataFrame, chart: pd.DataFrame) -> list[int]:
     )
 
 
-def _coordinates(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
+def _coordinates(rows: pd.DataFrame | pd.Series) -> tuple:
+    """Return displacement and worn volume of rows, or of one, as they are drawn: mm and cm³."""
     return 1e3 * rows.peak, 1e6 * rows.worn_volume

@@ -74,8 +74,14 @@ def _draw_group(column: np.ndarray, members: list[Combination], table: pd.DataFr
     """Draw the combinations of one coating and speed into a column of panels."""
     rows = _rows_of(members, table)
     for axes, (name, colour, _) in zip(column, _PANELS, strict=True):
-        scale = [1 if name == "amplification" else member.blades for member in members]
-        _draw(axes, name, colour, rows, scale)
+        for place, (member, row) in enumerate(zip(members, rows, strict=True)):
+            scale = 1 if name == "amplification" else member.blades
+            low, middle, high = (scale * row[f"{name}_{statistic}"] for statistic in ("p05", "median", "p95"))
+            axes.plot([place, place], [low, high], color=colour, linewidth=1.5)
+            axes.plot(place, middle, "o", color=colour, markersize=3.5)
+        axes.axhline(1.0, color=GREY, linewidth=0.6)
+        axes.grid(axis="y")
+        axes.set_ylim(bottom=0)
     column[-1].set_xticks(range(len(members)), [label(member) for member in members], rotation=90, fontsize=9)
 
 
@@ -87,16 +93,6 @@ def _key(combination: Combination) -> tuple:
 def _rows_of(members: list[Combination], table: pd.DataFrame) -> list[pd.Series]:
     by_key = table.set_index(WHAT)
     return [by_key.loc[_key(member)] for member in members]
-
-
-def _draw(axes: Axes, name: str, colour: str, rows: list[pd.Series], scale: list[float]) -> None:
-    for place, (row, factor) in enumerate(zip(rows, scale, strict=True)):
-        low, middle, high = (factor * row[f"{name}_{statistic}"] for statistic in ("p05", "median", "p95"))
-        axes.plot([place, place], [low, high], color=colour, linewidth=1.5)
-        axes.plot(place, middle, "o", color=colour, markersize=3.5)
-    axes.axhline(1.0, color=GREY, linewidth=0.6)
-    axes.grid(axis="y")
-    axes.set_ylim(bottom=0)
 
 
 @styled
@@ -127,39 +123,26 @@ def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
 
 
 def _draw_sweep(upper: Axes, lower: Axes, rows: pd.DataFrame, speeds: np.ndarray, single: np.ndarray) -> None:
-    nominal, drawn = rows[single], rows[~single]
-    upper.plot(
-        *_broken(speeds[single], 1e3 * nominal["row_amplitude_median"]),
-        "o-",
-        color=GREY,
-        markersize=2.5,
-        linewidth=0.8,
-        label="single nominal blade",
-    )
+    nominal, drawn, drawn_speeds = rows[single], rows[~single], speeds[~single]
+    look = {"color": GREY, "ms": 2.5, "lw": 0.8, "label": "single nominal blade"}
+    _draw_broken(upper, speeds[single], 1e3 * nominal.row_amplitude_median, "o-", **look)
     low, middle, high = (1e3 * drawn[f"row_amplitude_{statistic}"] for statistic in ("p05", "median", "p95"))
-    upper.vlines(speeds[~single], low, high, color=DARK, linewidth=0.8)
-    upper.plot(
-        *_broken(speeds[~single], middle),
-        "o-",
-        color=DARK,
-        markersize=3,
-        linewidth=1.0,
-        label="row: median, 5 to 95 % of the draws",
-    )
-    for name, colour, look, text in (
-        ("divergent_rows", ORANGE, "s--", "diverge"),
-        ("unbounded_rows", BLUE, "o-", "leave the displacement limit"),
+    upper.vlines(drawn_speeds, low, high, color=DARK, linewidth=0.8)
+    look = {"color": DARK, "ms": 3, "lw": 1.0, "label": "row: median, 5 to 95 % of the draws"}
+    _draw_broken(upper, drawn_speeds, middle, "o-", **look)
+    for name, line, colour, text in (
+        ("divergent_rows", "s--", ORANGE, "diverge"),
+        ("unbounded_rows", "o-", BLUE, "leave the displacement limit"),
     ):
-        share = drawn[name] / drawn["rows"]
-        lower.plot(
-            *_broken(speeds[~single], share), look, color=colour, markersize=3, linewidth=1.0, label=text
-        )
+        look = {"color": colour, "ms": 3, "lw": 1.0, "label": text}
+        _draw_broken(lower, drawn_speeds, drawn[name] / drawn["rows"], line, **look)
     for axes in (upper, lower):
         axes.grid(axis="y")
 
 
-def _broken(speeds: np.ndarray, values: pd.Series) -> tuple[np.ndarray, np.ndarray]:
-    """Leave a gap in a line where no speed was run for much longer than usual."""
+def _draw_broken(axes: Axes, speeds: np.ndarray, values: pd.Series, line: str, **look) -> None:
+    """Draw a line with a gap where no speed was run for much longer than usual."""
     steps = np.diff(speeds)
     gaps = np.flatnonzero(steps > _GAP * np.median(steps)) + 1 if steps.size else []
-    return np.insert(speeds, gaps, np.nan), np.insert(np.asarray(values, dtype=float), gaps, np.nan)
+    broken = (np.insert(np.asarray(numbers, dtype=float), gaps, np.nan) for numbers in (speeds, values))
+    axes.plot(*broken, line, **look)

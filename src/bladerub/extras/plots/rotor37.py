@@ -23,9 +23,8 @@ def response(panels: Mapping[str, Mapping[str, CoatingMap]], f1_hz: float, nomin
     Runs that ended as unbounded are crosses at the top. `nominal` is the design speed, 1/min.
     """
     figure = style.new_figure(style.PAGE, 0.36 * style.PAGE * len(panels))
-    for axes, (title, coatings) in zip(
-        np.ravel(figure.subplots(len(panels), 1, sharex=True, sharey=True)), panels.items(), strict=True
-    ):
+    rows = figure.subplots(len(panels), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    for axes, (title, coatings) in zip(rows, panels.items(), strict=True):
         for colour, (label, coating) in zip(_COLOURS, coatings.items(), strict=False):
             _draw_response(axes, coating, 60 * f1_hz, label, colour)
         axes.axvline(nominal, color=style.GREY, linewidth=0.8, linestyle=":")
@@ -40,15 +39,9 @@ def _draw_response(axes: Axes, coating: CoatingMap, rpm: float, label: str, colo
     speed = coating.f_omega * rpm
     amplitude = 1e3 * coating.revolution_amplitude[:, -_LAST:].max(axis=1)
     axes.plot(speed, amplitude, color=colour, linewidth=1.1, label=label)
-    unbounded = coating.status != "completed"
-    axes.plot(
-        speed[unbounded],
-        np.full(unbounded.sum(), 0.98),
-        "x",
-        color=colour,
-        markersize=4,
-        transform=axes.get_xaxis_transform(),
-    )
+    unbounded = speed[coating.status != "completed"]
+    look = {"color": colour, "markersize": 4, "transform": axes.get_xaxis_transform()}
+    axes.plot(unbounded, np.full(unbounded.size, 0.98), "x", **look)
 
 
 @style.styled
@@ -62,16 +55,12 @@ def direct_contact(history: pd.DataFrame, spec: RunSpec, node_angle: float) -> F
     figure = style.new_figure(style.PAGE, 0.62 * style.PAGE)
     angle = np.linspace(0, 2 * np.pi, 721)
     gap = casing.gap(spec.casing, spec.clearance[0], angle + spec.casing.start_angle + node_angle)
-    for axes, (name, title) in zip(
-        figure.subplots(2, 1, sharex=True, sharey=True), titles.items(), strict=True
-    ):
-        axes.fill_between(
-            np.rad2deg(angle), 1e3 * gap, 0.45, color=style.MISSING, linewidth=0, label="casing"
-        )
+    panels, looks = figure.subplots(2, 1, sharex=True, sharey=True), (style.FIRST, style.SECOND)
+    for axes, (name, title) in zip(panels, titles.items(), strict=True):
+        blank = {"color": style.MISSING, "linewidth": 0, "label": "casing"}
+        axes.fill_between(np.rad2deg(angle), 1e3 * gap, 0.45, **blank)
         runs = history[stiffness[0] == name]
-        for look, (friction, rows) in zip(
-            (style.FIRST, style.SECOND), runs.groupby(stiffness[2]), strict=True
-        ):
+        for look, (friction, rows) in zip(looks, runs.groupby(stiffness[2]), strict=True):
             moved = 1e3 * rows.radial_displacement
             axes.plot(np.rad2deg(rows.turned), moved, **look, linewidth=1.1, label=f"μ = {friction}")
         axes.set(xlim=(0, 360), xticks=range(0, 361, 45), ylim=(-0.62, 0.45), ylabel="radial (mm)")

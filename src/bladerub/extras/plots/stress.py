@@ -1,11 +1,12 @@
 """The largest stress of the blade at the peaks of the study."""
 
+from itertools import cycle
+
 import pandas as pd
 from matplotlib.figure import Figure
 
 from bladerub.plots import style
 
-_MARKERS = "os^vDP"
 _COLOURS = (style.BLUE, style.ORANGE, style.RED, style.VIOLET, style.DARK)
 
 
@@ -17,28 +18,19 @@ def stress(table: pd.DataFrame) -> Figure:
     """
     figure = style.new_figure(style.PAGE, 0.45 * style.PAGE)
     over_speed, over_displacement = figure.subplots(1, 2)
-    for number, (order, rows) in enumerate(table.groupby("order")):
-        look = {
-            "marker": _MARKERS[number % len(_MARKERS)],
-            "color": _COLOURS[number % len(_COLOURS)],
-            "ls": "none",
-            "ms": 3,
-            "mfc": "none",
-        }
-        name = f"eo({order:g})"
-        over_speed.plot(rows.f_peak, rows.last_von_mises / 1e6, label=name, **look)
+    looks = zip(cycle("os^vDP"), cycle(_COLOURS), strict=False)
+    for (order, rows), (marker, colour) in zip(table.groupby("order"), looks, strict=False):
+        look = {"marker": marker, "color": colour, "ls": "none", "ms": 3, "mfc": "none"}
+        over_speed.plot(rows.f_peak, rows.last_von_mises / 1e6, label=f"eo({order:g})", **look)
         over_displacement.plot(1e3 * rows.amplitude, rows.last_alternating / 1e6, **look)
     rotation = table.sort_values("f_peak")
     over_speed.plot(
         rotation.f_peak, rotation.rotation_von_mises / 1e6, color=style.GREY, label="rotation alone"
     )
-    over_speed.set_xlabel(r"rotational frequency $f_\Omega$ (normalised)")
+    over_speed.set(xlabel=r"rotational frequency $f_\Omega$ (normalised)", ylim=(0, None))
     over_speed.set_ylabel("largest von Mises stress (MPa)")
-    over_displacement.set_xlabel("amplitude at the peak (mm)")
-    over_displacement.set_ylabel("alternating stress (MPa)")
-    over_displacement.set_xlim(left=0)
-    for axes in (over_speed, over_displacement):
-        axes.set_ylim(bottom=0)
+    over_displacement.set(xlabel="amplitude at the peak (mm)", ylabel="alternating stress (MPa)")
+    over_displacement.set(xlim=(0, None), ylim=(0, None))
     handles, labels = over_speed.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))  # hides no peak
     return figure
