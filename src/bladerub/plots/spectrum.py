@@ -12,11 +12,11 @@ from bladerub.plots.scales import LARGE, UNKNOWN, Scales, greatest
 from bladerub.plots.style import (
     AMPLITUDE_MAP,
     BLUE,
-    DARK,
+    FIRST,
     MISSING,
-    ORANGE,
     PAGE,
     RED,
+    SECOND,
     new_figure,
     on_axes,
     styled,
@@ -27,10 +27,7 @@ from bladerub.study.peaks import Peak
 ORDERS = range(1, 13)
 """Engine orders that are drawn and labelled."""
 
-_LOOKS = (
-    {"color": DARK, "linestyle": "-", "marker": "o"},
-    {"color": ORANGE, "linestyle": "--", "marker": "s"},
-)
+_LOOKS = (FIRST | {"marker": "o"}, SECOND | {"marker": "s"})
 _LARGE = {"marker": ">", "color": RED, "markersize": 4, "linestyle": "none", "clip_on": False, "label": LARGE}
 _RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
 

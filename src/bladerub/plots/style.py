@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import wraps
 from io import BytesIO
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -94,18 +94,8 @@ class Picture(Figure):
         return f'<img src="data:image/png;base64,{b64encode(stream.getvalue()).decode()}">'
 
 
-Drawn = TypeVar("Drawn")
-
-
-def styled(draw: Callable[..., Drawn]) -> Callable[..., Drawn]:
-    """Run the drawing function `draw` in the style, and leave matplotlib's settings as they were."""
-
-    @wraps(draw)
-    def in_style(*args, **kwargs) -> Drawn:
-        with matplotlib.rc_context(_RC):
-            return draw(*args, **kwargs)
-
-    return in_style
+styled = matplotlib.rc_context(_RC)
+"""Decorate a function that draws in the style, and leaves matplotlib's settings as they were."""
 
 
 def on_axes(draw_into: Callable[..., Any]) -> Callable[[Callable[..., Figure]], Callable[..., Any]]:
@@ -116,16 +106,16 @@ def on_axes(draw_into: Callable[..., Any]) -> Callable[[Callable[..., Figure]], 
     """
 
     def decorate(draw: Callable[..., Figure]) -> Callable[..., Any]:
+        @styled
         @wraps(draw)
         def drawn(*args, path: str | Path | None = None, ax: Axes | None = None, **kwargs) -> Any:
-            with matplotlib.rc_context(_RC):
-                if ax is None:
-                    figure = draw(*args, **kwargs)
-                else:
-                    figure = ax.figure
-                    draw_into(ax, *args, **kwargs)
-                if path is not None:
-                    figure.savefig(path, dpi=_FILE_DPI)
+            if ax is None:
+                figure = draw(*args, **kwargs)
+            else:
+                figure = ax.figure
+                draw_into(ax, *args, **kwargs)
+            if path is not None:
+                figure.savefig(path, dpi=_FILE_DPI)
             return figure if ax is None else ax
 
         return drawn
@@ -154,16 +144,16 @@ def new_figure(width: float = PAGE, height: float = 0.6 * PAGE) -> Figure:
     return Picture(figsize=(width, height), layout="constrained")
 
 
+@styled
 def save(figure: Figure, png: str | Path, pdf: str | Path, dpi: float) -> None:
     """Write `figure` as a PNG of `dpi` dots per inch and as a PDF; equal data give equal files.
 
     Both say in their metadata what made them, the one as ``Software`` and the other as ``Creator``.
     """
     origin = f"{software()}, matplotlib {matplotlib.__version__}"
-    with matplotlib.rc_context(_RC):
-        with atomic.writing(png, "wb") as stream:
-            figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": origin})
-        figure.set_layout_engine("none")  # what is placed stays: to place it again takes as long as drawing
-        with atomic.writing(pdf, "wb") as stream:
-            about = {"Creator": origin, "CreationDate": None}
-            figure.savefig(stream, format="pdf", dpi=_PDF_RASTER_DPI, metadata=about)
+    with atomic.writing(png, "wb") as stream:
+        figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": origin})
+    figure.set_layout_engine("none")  # what is placed stays: to place it again takes as long as drawing
+    with atomic.writing(pdf, "wb") as stream:
+        about = {"Creator": origin, "CreationDate": None}
+        figure.savefig(stream, format="pdf", dpi=_PDF_RASTER_DPI, metadata=about)
