@@ -1,9 +1,18 @@
-"""One coating as the page holds it: pictures thinned and compressed, figures as they are."""
+"""One coating as the page holds it: pictures thinned and compressed, figures as they are.
+
+What the numbers of a picture lose is below what it shows. Numbers that a reader may quote are not among them.
+"""
+
+import base64
+import gzip
+import json
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.explorer import encoding, figures
+from bladerub.extras.explorer import figures
+from bladerub.io.plain import plain
 from bladerub.plots.spectrum import ORDERS
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap
@@ -16,6 +25,7 @@ AMPLITUDE_FLOOR = 1e-8
 """Smallest spectral amplitude that the page resolves, m; far below the colour scale of the figures."""
 _SMALLEST = 1e-15
 """Amplitude of a blade at rest in the pictures of growth, m: a logarithmic axis has no zero."""
+_ESCAPES = str.maketrans({"<": "\\u003c", ">": "\\u003e", "&": "\\u0026"})
 
 
 def arcs(n_elements: int) -> np.ndarray:
@@ -46,19 +56,19 @@ def parts(
     spectrum_revolutions: int,
     max_frequency: float,
 ) -> dict[str, str]:
-    """Pack one coating, each part as `encoding.packed`; parameters as of `figures.of_runs` and `kept_orders`.
+    """Pack one coating, each part as `packed`; parameters as of `figures.of_runs` and `kept_orders`.
 
     ``wear``: bytes, n speeds × m arcs, differences along each row of `linear_steps`. ``spectrum``: bytes,
     `logarithmic_steps`, the kept orders of each speed one after the other. ``growth``: the same in two bytes
     (little-endian), for each speed the revolutions of the study's run and of the longer run. ``figures``:
     JSON, `figures.of_runs` and the scales, in mm.
     """
-    wear, deepest = encoding.linear_steps(arc_means(coating.wear, arcs(coating.angle.size)))
+    wear, deepest = linear_steps(arc_means(coating.wear, arcs(coating.angle.size)))
     counts = kept_orders(coating.f_omega, coating.spectrum_order, max_frequency)
     spectrum = np.concatenate([row[:n] for row, n in zip(coating.spectrum_amplitude, counts, strict=True)])
-    spectrum_range = AMPLITUDE_FLOOR, encoding.log_range(spectrum, AMPLITUDE_FLOOR)[1]
+    spectrum_range = AMPLITUDE_FLOOR, log_range(spectrum, AMPLITUDE_FLOOR)[1]
     growth = np.hstack([coating.revolution_amplitude, coating.confirmation_amplitude])
-    growth_range = encoding.log_range(growth, _SMALLEST)
+    growth_range = log_range(growth, _SMALLEST)
     numbers = {
         "runs": figures.of_runs(coating, divergence, runs, spectrum_revolutions),
         "deepest": figures.mm(deepest),
@@ -67,11 +77,57 @@ def parts(
         "revolutions": coating.revolution_amplitude.shape[1],
         "confirmation_revolutions": coating.confirmation_amplitude.shape[1],
     }
-    spectrum_steps = encoding.logarithmic_steps(spectrum, *spectrum_range, np.uint8)
-    growth_steps = encoding.logarithmic_steps(growth, *growth_range, np.uint16).astype("<u2")
+    spectrum_steps = logarithmic_steps(spectrum, *spectrum_range, np.uint8)
+    growth_steps = logarithmic_steps(growth, *growth_range, np.uint16).astype("<u2")
     return {
-        "wear": encoding.packed(encoding.differences(wear).tobytes()),
-        "spectrum": encoding.packed(spectrum_steps.tobytes()),
-        "growth": encoding.packed(growth_steps.tobytes()),
-        "figures": encoding.packed(encoding.json_text(numbers).encode()),
+        "wear": packed(differences(wear).tobytes()),
+        "spectrum": packed(spectrum_steps.tobytes()),
+        "growth": packed(growth_steps.tobytes()),
+        "figures": packed(json_text(numbers).encode()),
     }
+
+
+def linear_steps(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Write each row of `values` (n, m), not negative, in steps of 1/255 of its greatest value (n,)."""
+    greatest = values.max(axis=1)
+    share = values / np.where(greatest > 0, greatest, 1.0)[:, None]
+    return np.rint(255 * share).astype(np.uint8), greatest
+
+
+def logarithmic_steps(values: np.ndarray, low: float, high: float, dtype: type) -> np.ndarray:
+    """Write `values` in equal ratios from `low` to `high`, both positive, as unsigned integers `dtype`.
+
+    Step 1 stands for `low` and below, the greatest step for `high` and above, 0 for NaN.
+    """
+    top = np.iinfo(dtype).max
+    share = np.log(np.clip(values, low, high) / low) / np.log(high / low)
+    return np.where(np.isnan(values), 0, 1 + np.rint((top - 1) * np.nan_to_num(share))).astype(dtype)
+
+
+def differences(steps: np.ndarray) -> np.ndarray:
+    """Differences (n, m) of `steps` (n, m) along each row, modulo 256: smooth rows compress better so."""
+    return np.diff(steps, axis=1, prepend=np.uint8(0))
+
+
+def log_range(values: np.ndarray, floor: float) -> tuple[float, float]:
+    """Find the ends of a logarithmic scale that holds all `values` above `floor`, which is positive.
+
+    The upper is twice the lower at least; the lower is `floor` if there is no such value.
+    """
+    visible = values[values > floor]
+    if visible.size == 0:
+        return floor, 2 * floor
+    return float(visible.min()), float(max(visible.max(), 2 * visible.min()))
+
+
+def packed(data: bytes) -> str:
+    """Compress `data` (gzip) and write it as text (base64); equal data give equal text."""
+    return base64.b64encode(gzip.compress(data, compresslevel=9, mtime=0)).decode("ascii")
+
+
+def json_text(value: Any) -> str:
+    """Write `value` as JSON that a script element can hold: nothing in it ends the element or begins another.
+
+    Arrays become lists; NaN and infinities, which JSON lacks, become null. Numbers keep all their digits.
+    """
+    return json.dumps(plain(value), allow_nan=False, separators=(",", ":")).translate(_ESCAPES)

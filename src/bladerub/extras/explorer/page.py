@@ -10,7 +10,6 @@ from typing import Any
 import pandas as pd
 
 from bladerub.extras.explorer import coating, study
-from bladerub.extras.explorer.encoding import json_text
 from bladerub.io.optional import package
 from bladerub.study.manifest import read_manifest
 from bladerub.study.maps import read_map
@@ -40,7 +39,7 @@ def build(
         coating_map, runs = read_map(map_path), read_manifest(manifest_path)
         coating_scales = study.scales(coating_map, max_frequency)
         scales = scales or coating_scales
-        if json_text(coating_scales) != json_text(scales):
+        if coating.json_text(coating_scales) != coating.json_text(scales):
             raise ValueError(
                 f"{map_path}: not of the same blade, speeds and angles as {map_paths[0]}; make the maps again"
             )
@@ -51,7 +50,7 @@ def build(
     return Template(_text("index.html")).substitute(
         policy=_policy(library, program),
         style=_text("style.css"),
-        study=json_text({**study.about(settings), **scales, "coatings": coatings}),
+        study=coating.json_text({**study.about(settings), **scales, "coatings": coatings}),
         data="\n".join(data),
         library=library,
         program=program,

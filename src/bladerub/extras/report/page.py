@@ -3,18 +3,21 @@
 import math
 import os
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from datetime import UTC, datetime
 from io import BytesIO, StringIO
 from pathlib import Path
 
 import matplotlib
+import yaml
 from matplotlib.figure import Figure
 
 from bladerub.blade.accuracy import doubts
-from bladerub.extras.report import answers, origin, words
-from bladerub.extras.report.results import STRESS, Results
+from bladerub.extras.report import answers, words
+from bladerub.extras.report.results import STRESS, Results, files
 from bladerub.io import optional
-from bladerub.io.provenance import config_digest
+from bladerub.io.folders import ROOT
+from bladerub.io.provenance import PREFIX, config_digest, software
 from bladerub.plots.campbell import campbell
 from bladerub.plots.scales import Engine, Scales
 from bladerub.plots.spectrum import ORDERS, spectrum_map
@@ -39,7 +42,8 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
         results=results,
         config=config,
         answers=answers,
-        origin=origin,
+        origin=_origin(results),
+        citation=_citation(),
         shown=shown,
         runs=dict(list(results.runs.groupby("name"))),
         doubts=doubts(results.accuracy, config.figures.nominal_speed),
@@ -86,3 +90,23 @@ def _png(figure: Figure) -> str:
     stream = BytesIO()
     figure.savefig(stream, format="png", dpi=_DPI, metadata={"Software": None})
     return f"data:image/png;base64,{b64encode(stream.getvalue()).decode()}"
+
+
+def _origin(results: Results) -> Iterator[tuple[str, str]]:
+    """List what made the tables, when the newest file was written (they hold no date), and what the page."""
+    for name, value in results.origin.items():
+        yield name.removeprefix(PREFIX).replace("_", " "), value
+    newest = max(path.stat().st_mtime for path in files(results.config, results.folder))
+    yield "newest file read", datetime.fromtimestamp(newest, UTC).strftime("%Y-%m-%d %H:%M UTC")
+    yield "this page", software()
+
+
+def _citation() -> str:
+    """Say how to cite the program and the paper, from CITATION.cff."""
+    about = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    works = [f"{_authors(work)}: {work['title']}" for work in (about, *about["references"])]
+    return f"{'; '.join(works)} (version {about['version']})."
+
+
+def _authors(work: dict) -> str:
+    return ", ".join(author.get("name") or author["family-names"] for author in work["authors"])
