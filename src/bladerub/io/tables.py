@@ -12,6 +12,7 @@ import io
 import json
 import re
 import shutil
+from collections import ChainMap
 from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from functools import cache
@@ -47,12 +48,10 @@ def write(
     described = described_columns(*columns_files)
     description = json.dumps(_description(path.name, table, described, origin), indent=2, ensure_ascii=False)
     content = table.to_csv(index=False, float_format=float_format, lineterminator="\n").encode()
-    for file, text in (
-        (path, content),
-        (description_path(path), checksum.seal(f"{description}\n".encode(), content)),
-    ):
-        with atomic.writing(file, "wb") as stream:
-            stream.write(text)
+    with atomic.writing(path, "wb") as stream:
+        stream.write(content)
+    with atomic.writing(description_path(path), "wb") as stream:
+        stream.write(checksum.seal(f"{description}\n".encode(), content))
 
 
 def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") -> "pd.DataFrame":
@@ -114,11 +113,7 @@ def described_columns(*columns_files: Path) -> dict[str, dict[str, Any]]:
 
     Those in `COLUMNS_FILE` come before those of the other files.
     """
-    return {
-        name: about
-        for file in (*reversed(columns_files), COLUMNS_FILE)
-        for name, about in _described(file).items()
-    }
+    return dict(ChainMap(*map(_described, (COLUMNS_FILE, *columns_files))))
 
 
 @cache

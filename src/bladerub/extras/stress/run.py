@@ -128,11 +128,6 @@ class BladeStress:
         return run.result, sampled_stress(self.at(spec.f_omega).of(run.patterns), run, last)
 
 
-def complete_revolutions(revolution_peak: np.ndarray, status: str) -> int:
-    """Count the revolutions that a run of this outcome has completed; `revolution_peak` as of `RunResult`."""
-    return int(np.isfinite(revolution_peak).sum()) - (status == "unbounded")
-
-
 class StressSolver:
     """Simulates a run of a single blade, as `bladerub.contact.run.simulate`, and keeps its `stress`.
 
@@ -160,10 +155,10 @@ class StressSolver:
 
 def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress | None:
     """Find the stress of a sampled run, as `StressSolver` does; `stress` is that of its amplitudes."""
-    revolutions = complete_revolutions(run.result.revolution_peak, run.result.status)
-    if not revolutions:
+    revolutions = np.isfinite(run.result.revolution_peak).sum() - (run.result.status == "unbounded")
+    if not revolutions:  # is complete
         return None
     begin, end = np.searchsorted(run.time, (max(revolutions - last, 0), revolutions), side="right")
-    parts = {"start_up": slice(0, begin), "last": slice(begin, end)} if begin else {"last": slice(0, end)}
-    peaks = stress_peaks(stress, run.amplitudes, run.time, [*parts.values()])
-    return RunStress(static_peak(stress), **{"start_up": {}, **dict(zip(parts, peaks, strict=True))})
+    parts = [slice(0, begin), slice(begin, end)] if begin else [slice(0, end)]
+    *start_up, last_peaks = stress_peaks(stress, run.amplitudes, run.time, parts)
+    return RunStress(static_peak(stress), start_up[0] if start_up else {}, last_peaks)

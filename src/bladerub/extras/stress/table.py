@@ -6,7 +6,7 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.extras.stress.run import BladeStress, RunStress
+from bladerub.extras.stress.run import BladeStress
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 
@@ -30,17 +30,9 @@ def table(mesh: str | Path, blade: ReducedBlade, config: Config, peaks: pd.DataF
     for peak in peaks.dropna(subset=["f_peak"]).to_dict("records"):
         spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])
         result, run_stress = stress.of_run(spec, config.analysis.spectrum_revolutions)
-        rows.append(
-            {name: peak[name] for name in (*_CASE, *_PEAK)}
-            | {"status": result.status}
-            | (_of_run(run_stress) if run_stress else {})
-        )
+        rows.append({name: peak[name] for name in (*_CASE, *_PEAK)} | {"status": result.status})
+        if run_stress:
+            rows[-1]["rotation_von_mises"] = run_stress.static["von_mises"]
+            rows[-1]["start_up_von_mises"] = run_stress.start_up.get("von_mises")
+            rows[-1] |= {f"last_{name}": run_stress.last[name] for name in _OF_LAST}
     return pd.DataFrame(rows, columns=COLUMNS)
-
-
-def _of_run(stress: RunStress) -> dict[str, float | None]:
-    return {
-        "rotation_von_mises": stress.static["von_mises"],
-        "start_up_von_mises": stress.start_up.get("von_mises"),
-        **{f"last_{name}": stress.last.get(name) for name in _OF_LAST},
-    }
