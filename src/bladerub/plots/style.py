@@ -72,7 +72,7 @@ _RC = {
     "pdf.fonttype": 42,
 }
 _PDF_RASTER_DPI = 300
-_NOTEBOOK_DPI, _FILE_DPI = 110, 200
+_PAGE_DPI, _FILE_DPI = 110, 200
 
 
 class Picture(Figure):
@@ -89,9 +89,14 @@ class Picture(Figure):
         super().draw(renderer)
 
     def _repr_html_(self) -> str:
-        stream = BytesIO()
-        self.savefig(stream, format="png", dpi=_NOTEBOOK_DPI)
-        return f'<img src="data:image/png;base64,{b64encode(stream.getvalue()).decode()}">'
+        return f'<img src="{data_address(self)}">'
+
+
+def data_address(figure: Figure) -> str:
+    """Return an address that holds `figure` as a PNG; equal figures have equal addresses."""
+    stream = BytesIO()
+    figure.savefig(stream, format="png", dpi=_PAGE_DPI, metadata={"Software": None})
+    return f"data:image/png;base64,{b64encode(stream.getvalue()).decode()}"
 
 
 styled = matplotlib.rc_context(_RC)

@@ -2,15 +2,13 @@
 
 import math
 import os
-from base64 import b64encode
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
-from io import BytesIO, StringIO
+from io import StringIO
 from pathlib import Path
 
 import matplotlib
 import yaml
-from matplotlib.figure import Figure
 
 from bladerub.blade.accuracy import doubts
 from bladerub.extras.report import answers, words
@@ -21,11 +19,10 @@ from bladerub.io.provenance import PREFIX, config_digest, software
 from bladerub.plots.campbell import campbell
 from bladerub.plots.scales import Engine, Scales
 from bladerub.plots.spectrum import ORDERS, spectrum_map
-from bladerub.plots.style import RED
+from bladerub.plots.style import RED, data_address
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import modulus_unit, run_spec
 
-_DPI = 110
 _SAME = {"svg.hashsalt": "bladerub", "svg.fonttype": "path"}  # equal results have equal pages
 
 
@@ -80,16 +77,9 @@ def _maps(results: Results, name: str) -> dict[str, str]:
     """Draw wear and spectra of a coating over the speed, as addresses of PNGs that hold them, by caption."""
     figures, scales, coating = results.config.figures, _scales(results), results.map(name)
     ends, highest, worn = tuple(figures.amplitude_range), figures.max_frequency, coating.max_wear.any()
-    return {
-        **({"Worn depth around the casing over the speed": _png(wear_map(coating, scales))} if worn else {}),
-        "Vibration over frequency and speed": _png(spectrum_map(coating, ends, highest, scales)),
-    }
-
-
-def _png(figure: Figure) -> str:
-    stream = BytesIO()
-    figure.savefig(stream, format="png", dpi=_DPI, metadata={"Software": None})
-    return f"data:image/png;base64,{b64encode(stream.getvalue()).decode()}"
+    drawn = {"Worn depth around the casing over the speed": wear_map(coating, scales)} if worn else {}
+    drawn["Vibration over frequency and speed"] = spectrum_map(coating, ends, highest, scales)
+    return {caption: data_address(figure) for caption, figure in drawn.items()}
 
 
 def _origin(results: Results) -> Iterator[tuple[str, str]]:

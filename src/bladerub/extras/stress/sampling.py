@@ -24,7 +24,7 @@ from bladerub.contact.setup import set_up_modes
 from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.machine_code import njit_on_disk
-from bladerub.numerics.memory import read
+from bladerub.numerics.memory import address_of, read
 
 
 class SampledRun(NamedTuple):
@@ -120,18 +120,9 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
     n = rows.shape[1] - forces.size
     for part in range(len(rows)):
         first, last = ends[part], ends[part + 1]
+        means = address_of(displacement, first)
         in_flight, bound, steps, flights, contacts, lowest, highest = loop.integrate(
-            modal,
-            flight,
-            stator,
-            tip,
-            state,
-            steps_per_element,
-            first,
-            last,
-            in_flight,
-            bound,
-            displacement + 8 * first,
+            modal, flight, stator, tip, state, steps_per_element, first, last, in_flight, bound, means
         )
         n_steps, n_flights, n_contact = n_steps + steps, n_flights + flights, n_contact + contacts
         low, high = min(low, lowest), max(high, highest)
