@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 
 from bladerub.plots.style import DARK, GREY
 from bladerub.study.maps import CoatingMap
@@ -32,15 +33,13 @@ class Engine:
 
     def add_speeds(self, axes: Axes, along: str) -> None:
         """Add a second scale, rpm and Hz, to the speeds that run `along` "x" or "y"."""
-        second = self._second(axes, along, 60 * self.f1_hz)
-        axis = second.xaxis if along == "x" else second.yaxis
+        axis = self._second(axes, along, 60 * self.f1_hz)
         axis.set_major_formatter(lambda rpm, _: f"{rpm:.0f}\n{rpm / 60:.0f} Hz")
         axis.set_label_text("rotor speed (rpm, Hz)")
 
     def add_frequencies(self, axes: Axes, along: str) -> None:
         """Add a second scale, Hz, to the frequencies that run `along` "x" or "y"."""
-        second = self._second(axes, along, self.f1_hz)
-        (second.xaxis if along == "x" else second.yaxis).set_label_text("frequency (Hz)")
+        self._second(axes, along, self.f1_hz).set_label_text("frequency (Hz)")
 
     def draw_nominal_speed(self, draw: Callable, in_legend: bool = True) -> None:
         """Draw the nominal speed, if it is known, by `draw`: ``axvline`` or ``axhline`` of the axes."""
@@ -48,7 +47,7 @@ class Engine:
             label = f"nominal speed, {self.nominal_speed:g} rpm" if in_legend else "_nominal"
             draw(self.nominal_speed / 60 / self.f1_hz, label=label, zorder=3, **_LINE)
 
-    def _second(self, axes: Axes, along: str, factor: float) -> Axes:
+    def _second(self, axes: Axes, along: str, factor: float) -> Axis:
         """Add an axis, `factor` times the first one, outside of the numbers and the name of that."""
         side = "bottom" if along == "x" else "left"
         add = axes.secondary_xaxis if along == "x" else axes.secondary_yaxis
@@ -56,7 +55,7 @@ class Engine:
         second.spines[side].set_position(("outward", _OUTWARD if along == "x" else 1.3 * _OUTWARD))
         second.spines[side].set_color(GREY)
         second.tick_params(labelsize=7, color=GREY)
-        return second
+        return second.xaxis if along == "x" else second.yaxis
 
 
 @dataclass(frozen=True)

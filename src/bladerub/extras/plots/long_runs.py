@@ -56,8 +56,7 @@ def _draw_growth(axes: Axes, coatings: Sequence[LongRuns]) -> None:
 
 
 def _draw_verdicts(axes: Axes, table: pd.DataFrame) -> None:
-    counts = table.pivot_table(index="revolutions", columns="verdict", aggfunc="size", fill_value=0)
-    counts = counts.reindex(columns=list(_VERDICTS), fill_value=0)
+    counts = pd.crosstab(table.revolutions, table.verdict).reindex(columns=list(_VERDICTS), fill_value=0)
     bottom, places = np.zeros(len(counts)), np.arange(len(counts))
     for verdict, color in _VERDICTS.items():
         n = counts[verdict].to_numpy()
