@@ -14,24 +14,14 @@ if TYPE_CHECKING:
 COORDINATES = ("cartesian", "cylindrical")
 
 
-def add_to(form: Any) -> None:
-    """Add the options that each name what to write of the blade."""
-    for option, metavar, text in (
-        ("--calculix", "DIR", "a folder for CalculiX decks, one for each speed"),
-        (
-            "--mesh",
-            "FILE",
-            "mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements",
-        ),
-        ("--matrices", "FILE", "the reduced blade: .npz or .mat"),
-        (
-            "--fe-matrices",
-            "DIR",
-            "a new folder for what bladerub import reads: finite element matrices, nodes",
-        ),
-        ("--sections", "FILE", "table of sections of a parametric blade: .csv, .txt, .dat"),
-    ):
-        form.add_argument(option, type=Path, metavar=metavar, help=text)
+FORMS = (
+    ("--calculix", "DIR", "a folder for CalculiX decks, one for each speed"),
+    ("--mesh", "FILE", "mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements"),
+    ("--matrices", "FILE", "the reduced blade: .npz or .mat"),
+    ("--fe-matrices", "DIR", "a new folder for what bladerub import reads: finite element matrices, nodes"),
+    ("--sections", "FILE", "table of sections of a parametric blade: .csv, .txt, .dat"),
+)
+"""What can be written of the blade: option, name of its value and help."""
 
 
 def write(options: argparse.Namespace, config: "Config") -> dict[str, Any]:

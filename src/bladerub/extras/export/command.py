@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 SAME = 1e-6
 """Largest relative difference of the peaks at which a run computed again counts as the run of the file."""
 
+_MOTIONS = (
+    ("--vtu", "DIR", "a new folder for blade.pvd and a .vtu for each instant"),
+    ("--animation", "FILE", "a new GIF: blades, coating and wear over the whole run, seen along the axis"),
+)
 _GOES_WITH = {
     "speeds": ("calculix", "fe_matrices"),
     "matrix_format": ("fe_matrices",),
@@ -52,11 +56,8 @@ def add_to(commands: Any) -> None:
     )
     parser.option("--run", "the run (HDF5), for --vtu", Path, metavar="FILE")
     form = parser.add_mutually_exclusive_group(required=True)
-    text = "a new folder for blade.pvd and a .vtu for each instant"
-    form.add_argument("--vtu", type=Path, metavar="DIR", help=text)
-    text = "a new GIF: blades, coating and wear over the whole run, seen along the axis"
-    form.add_argument("--animation", type=Path, metavar="FILE", help=text)
-    blade_command.add_to(form)
+    for option, metavar, text in (*_MOTIONS, *blade_command.FORMS):
+        form.add_argument(option, type=Path, metavar=metavar, help=text)
     text = (
         "of the decks, normalised (default: 0, half of and the highest of the reduced blade); with "
         "--fe-matrices, of a stiffness in addition to those at these three"

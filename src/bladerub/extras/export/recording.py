@@ -65,8 +65,7 @@ def record(
     _, seats, simulation, _ = set_up_row(blade, spec, row)
     n_elements, end = spec.coating.n_elements, instants[-1]
     stops, wear = set(instants), []
-    amplitudes: list[list[np.ndarray]] = [[] for _ in seats]
-    forces: list[list[np.ndarray]] = [[] for _ in seats]
+    motions: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in seats]
     peak = np.full((len(seats), end // n_elements), np.nan)
     for first, last in pairwise(sorted({*range(0, end + 1, n_elements), *instants})):
         _, blade_progress = simulation.advance(np.empty((len(seats), last - first)), first)
@@ -78,25 +77,20 @@ def record(
             ]
             peak[:, revolution] = np.fmax(peak[:, revolution], largest)
         if last in stops:
-            for seat, own_amplitudes, own_forces in zip(seats, amplitudes, forces, strict=True):
+            for seat, motion in zip(seats, motions, strict=True):
                 state, rule = seat.simulation.state, seat.rule
-                own_amplitudes.append(state.q[0, : rule.omega.size].copy())
-                own_forces.append(forces_of_nodes(state, rule)[0].copy())
+                motion.append((state.q[0, : rule.omega.size].copy(), forces_of_nodes(state, rule)[0].copy()))
             wear.append(by_angle(blade, spec, seats[0].simulation.state.wear).copy())
         if progress is not None and last % n_elements == 0:
             progress(last // n_elements)
     shapes = mode_shapes_at(blade, spec.f_omega)[1]
     tip = at_tip(blade, shapes, spec)
     coordinates = []
-    for seat, own_amplitudes, own_forces in zip(seats, amplitudes, forces, strict=True):
+    for seat, motion in zip(seats, motions, strict=True):
+        amplitudes, forces = map(np.array, zip(*motion, strict=True))
         # what the resolved modes displace, and how the others answer to the contact forces
         share, n = seat.rule.share, seat.rule.omega.size
-        modal = np.array(own_forces) @ tip * (1.0 - share) / seat.modes.omega**2
-        modal[:, :n] += np.array(own_amplitudes) * np.sqrt(share[:n])
+        modal = forces @ tip * (1.0 - share) / seat.modes.omega**2
+        modal[:, :n] += amplitudes * np.sqrt(share[:n])
         coordinates.append(modal @ shapes.T)
-    return Recording(
-        np.array(instants) / n_elements,
-        np.stack(coordinates, axis=1),
-        np.array(wear),
-        peak,
-    )
+    return Recording(np.array(instants) / n_elements, np.stack(coordinates, axis=1), np.array(wear), peak)
