@@ -18,32 +18,29 @@ def held(path: str | Path, on_wait: Callable[[], object]) -> Iterator[None]:
     It and its folder are made if need be, and stay. `on_wait` is called once before waiting, if somebody else
     holds the lock.
     """
-    with _opened(path) as stream:
+    stream = attempt(path)
+    if stream is None:
+        stream = _opened(path)
         with suppress(OSError):  # no such locks here
-            if not _try_alone(stream):
-                on_wait()
-                fcntl.flock(stream, fcntl.LOCK_EX)
+            on_wait()
+            fcntl.flock(stream, fcntl.LOCK_EX)
+    with stream:
         yield
 
 
 def attempt(path: str | Path) -> IO | None:
     """Hold the lock file `path` until the returned stream is closed; None if somebody else holds it."""
     stream = _opened(path)
-    with suppress(OSError):  # no such locks here
-        if not _try_alone(stream):
-            stream.close()
-            return None
+    try:
+        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        stream.close()
+        return None
+    except OSError:  # no such locks here
+        pass
     return stream
 
 
 def _opened(path: str | Path) -> IO:
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     return open(path, "a")
-
-
-def _try_alone(stream: IO) -> bool:
-    try:
-        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True

@@ -3,6 +3,7 @@
 import argparse
 from collections.abc import Mapping
 from dataclasses import asdict
+from itertools import product
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from bladerub.cli import inputs
@@ -54,13 +55,10 @@ class StressOption(RunOption):
         if stress is None:
             return ["stress: not known, the blade is of matrices alone or no revolution is complete"]
         lines = []
-        for part, phase in _PARTS.items():
-            for name, kind in _KINDS.items():
-                if name in stress[part]:
-                    peaks = stress[part]
-                    place = ", ".join(f"{1e3 * peaks[f'{name}_{axis}']:.1f}" for axis in "xyz")
-                    time = (
-                        f", after {peaks[f'{name}_time']:.3f} revolutions" if f"{name}_time" in peaks else ""
-                    )
-                    lines.append((f"{kind}, {phase}", f"{peaks[name] / 1e6:.4g} MPa at ({place}) mm{time}"))
+        for (part, phase), (name, kind) in product(_PARTS.items(), _KINDS.items()):
+            peaks = stress[part]
+            if name in peaks:
+                place = ", ".join(f"{1e3 * peaks[f'{name}_{axis}']:.1f}" for axis in "xyz")
+                time = f", after {peaks[f'{name}_time']:.3f} revolutions" if f"{name}_time" in peaks else ""
+                lines.append((f"{kind}, {phase}", f"{peaks[name] / 1e6:.4g} MPa at ({place}) mm{time}"))
         return ["largest stress:", *inputs.aligned(lines)]
