@@ -40,31 +40,24 @@ def number(text: str) -> float:
     return float(re.sub("[dD]", "e", text)) if text else 0.0
 
 
-def blocks(path: Path) -> Iterator[Block]:
-    """Yield the blocks of the deck at `path`; a ValueError names the line of a file that is not there."""
-    head, data = None, []
+def blocks(path: Path) -> list[Block]:
+    """Read the blocks of the deck at `path`; a ValueError names the line of a file that is not there."""
+    content: list[Block] = []
     for line in _lines(path, path.parent, (path.resolve(),)):
-        if not line.text.startswith("*"):
-            data.append(line)
-            continue
-        if head is not None:
-            yield _block(head, data)
-        head, data = line, []
-    if head is not None:
-        yield _block(head, data)
+        if line.text.startswith("*"):
+            keyword, parameters = _head(line.text)
+            if keyword != "*INCLUDE":
+                content.append(Block(keyword, parameters, line.place, []))
+        elif content:
+            content[-1].lines.append(line)
+    return content
 
 
 def included(path: Path) -> list[str]:
     """List the files that the deck at `path` reads, relative to its folder; raises ValueError as `blocks`."""
-    names: list[str] = []
-    for _ in _lines(path, path.parent, (path.resolve(),), names):
-        pass
-    return list(dict.fromkeys(names))
-
-
-def _block(head: Line, data: list[Line]) -> Block:
-    keyword, parameters = _head(head.text)
-    return Block(keyword, parameters, head.place, data)
+    lines = _lines(path, path.parent, (path.resolve(),))
+    parameters = [_head(line.text)[1] for line in lines if line.text.startswith("*")]
+    return list(dict.fromkeys(names["INPUT"] for names in parameters if "INPUT" in names))
 
 
 def _head(text: str) -> tuple[str, dict[str, str]]:
@@ -75,10 +68,8 @@ def _head(text: str) -> tuple[str, dict[str, str]]:
     return "*" + " ".join(keyword.strip("* ").upper().split()), parameters
 
 
-def _lines(
-    path: Path, folder: Path, chain: tuple[Path, ...], names: list[str] | None = None
-) -> Iterator[Line]:
-    """Yield keyword lines, each whole in one, and lines of data; add the files included to `names`."""
+def _lines(path: Path, folder: Path, chain: tuple[Path, ...]) -> Iterator[Line]:
+    """Yield keyword lines, each whole in one, and lines of data; below a keyword those of its ``INPUT``."""
     prefix = f"{path.name}, " if len(chain) > 1 else ""
     head = ""
     with path.open(**_ENCODING) as stream:
@@ -93,21 +84,13 @@ def _lines(
             if head.endswith(","):
                 continue
             line, head = Line(head, f"{prefix}line {count}"), ""
-            keyword, parameters = _head(line.text)
-            if keyword != "*INCLUDE":
-                yield line
-            if "INPUT" in parameters:
-                yield from _included(line.place, parameters["INPUT"], folder, chain, names)
-
-
-def _included(
-    place: str, name: str, folder: Path, chain: tuple[Path, ...], names: list[str] | None
-) -> Iterator[Line]:
-    path = folder / name
-    if not path.is_file():
-        raise ValueError(f"{place}: it includes {name}, which is not in the folder of the deck")
-    if path.resolve() in chain or len(chain) >= MOST_FILES:
-        raise ValueError(f"{place}: it includes {name}, which includes itself")
-    if names is not None:
-        names.append(name)
-    yield from _lines(path, folder, (*chain, path.resolve()), names)
+            yield line
+            if (name := _head(line.text)[1].get("INPUT")) is not None:
+                inner = folder / name
+                if not inner.is_file():
+                    raise ValueError(
+                        f"{line.place}: it includes {name}, which is not in the folder of the deck"
+                    )
+                if inner.resolve() in chain or len(chain) >= MOST_FILES:
+                    raise ValueError(f"{line.place}: it includes {name}, which includes itself")
+                yield from _lines(inner, folder, (*chain, inner.resolve()))

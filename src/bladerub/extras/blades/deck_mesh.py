@@ -43,7 +43,7 @@ class Content(NamedTuple):
 
 def read(path: Path) -> Content:
     """Read the mesh of one part; a ValueError names line and cause of what is not read."""
-    blocks = list(deck.blocks(path))
+    blocks = deck.blocks(path)
     _check(blocks)
     model = _Model(blocks)
     if not model.rows:
