@@ -12,7 +12,7 @@ import yaml
 
 from bladerub.cli import inputs
 from bladerub.config import read as configuration
-from bladerub.extras.blades import origin, section_text
+from bladerub.extras.blades import origin, section_table
 from bladerub.extras.blades.frame import AXES, Frame
 from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.extras.file_units import ANGLE_UNITS, UNITS
@@ -121,7 +121,7 @@ def _refuse_at_once(path: Path) -> None:
     with inputs.refused(ValueError, because=f"{path}: "):
         origin.check_file(path)
         if path.suffix.lower() in origin.TABLE_SUFFIXES:
-            section_text.read(path)
+            section_table.read_cells(path)
 
 
 def _keep(built: "BuiltBlade", config: "Config") -> None:

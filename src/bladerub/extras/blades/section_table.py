@@ -9,17 +9,23 @@ names the section, hub to tip; other columns are ignored. How cells are separate
   `theta2` of the two sides (`bladerub.extras.blades.frame.Frame.cartesian` defines their origin and sign).
 """
 
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import groupby, islice
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
-from bladerub.extras.blades import section_text
+from bladerub.extras import cells
+from bladerub.extras.blades import origin
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.section_text import POINTS
+from bladerub.extras.cells import Cells
 from bladerub.extras.file_units import ANGLE_UNITS
 
+POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
+CYLINDRICAL = ("z", "r", "theta1", "theta2")
+_LOOKED_THROUGH = 50  # lines, for names below a title
 STATIONS = (5, 2000)  # fewest and most of a section
 
 
@@ -34,38 +40,60 @@ class Section:
 
 def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
     """Read the sections of a table in the order of the file; a ValueError names a line or section."""
-    table, form = section_text.read(Path(path))
-    numbers = pd.DataFrame({name: table.numbers(name) for name in form}, index=[*table.rows])
-    names = pd.Series(table.column("section"), index=numbers.index)
-    if (names == "").any():
-        raise ValueError(f"line {(names == '').idxmax()}: has no section")
-    parts = numbers.groupby((names != names.shift()).cumsum())
-    sections = [_section(names[rows.index[0]], rows, frame, angle_unit) for _, rows in parts]
+    table, form = read_cells(Path(path))
+    numbers = {name: table.numbers(name) for name in form}
+    names, lines = table.column("section"), np.array([*table.rows])
+    if "" in names:
+        raise ValueError(f"line {lines[names.index('')]}: has no section")
+    sections = []
+    for name, group in groupby(range(len(names)), names.__getitem__):
+        rows = [*group]
+        values = {column: of_all[rows] for column, of_all in numbers.items()}
+        sections.append(_section(name, lines[rows], values, frame, angle_unit))
     _check_names(sections)
     return sections
 
 
-def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Section:
-    lines = rows.index.to_numpy()
+def read_cells(path: Path) -> tuple[Cells, tuple[str, ...]]:
+    """Read a table and the columns of numbers of its form.
+
+    A ValueError names the line or says what is no table of sections.
+    """
+    origin.check_file(path)
+    table = cells.read(path)
+    try:
+        form = _form({name.lower() for name in table.names})
+    except ValueError as error:
+        what = f"line {table.header} must name the columns; cells separated by {table.separator}"
+        first = " ".join(table.names)[:60]
+        raise ValueError(f'{error} ({what}: "{first}"{_likely_names(table)})') from error
+    for name in ("section", *form):
+        table.column(name)
+    return table, form
+
+
+def _section(
+    name: str, lines: np.ndarray, values: Mapping[str, np.ndarray], frame: Frame, angle_unit: str
+) -> Section:
     label = f"section {name} (line {lines[0]})"
     minimum, maximum = STATIONS
-    if not minimum <= len(rows) <= maximum:
+    if not minimum <= lines.size <= maximum:
         raise ValueError(
-            f"{label}: has {len(rows)} stations; must have {minimum} to {maximum} in successive rows"
+            f"{label}: has {lines.size} stations; must have {minimum} to {maximum} in successive rows"
         )
-    if "r" in rows:
-        if (rows.r <= 0).any():
-            line = (rows.r <= 0).idxmax()
-            raise ValueError(f"line {line}: r = {rows.r[line]:g}, must be above 0")
-        angles = ANGLE_UNITS[angle_unit] * rows[["theta1", "theta2"]].to_numpy().T
+    if "r" in values:
+        z, radius = values["z"], values["r"]
+        if (inside := radius <= 0).any():
+            raise ValueError(f"line {lines[inside][0]}: r = {radius[inside][0]:g}, must be above 0")
+        angles = ANGLE_UNITS[angle_unit] * np.stack([values["theta1"], values["theta2"]])
         if np.ptp(angles) > np.pi:
             raise ValueError(
                 f"{label}: its angles go over {np.ptp(angles):.3g} rad, more than half around the axis; are "
                 f"they in {angle_unit}?"
             )
-        sides = [frame.cartesian(rows.z.to_numpy(), rows.r.to_numpy(), theta) for theta in angles]
+        sides = [frame.cartesian(z, radius, theta) for theta in angles]
     else:
-        sides = [rows[list(side)].to_numpy() for side in (POINTS[:3], POINTS[3:])]
+        sides = [np.stack([values[axis] for axis in side], axis=1) for side in (POINTS[:3], POINTS[3:])]
     return Section(name, lines, np.stack([frame.metres(side) for side in sides]))
 
 
@@ -79,3 +107,31 @@ def _check_names(sections: list[Section]) -> None:
                 f"line {section.lines[0]}: section {section.name} comes back; all its stations must follow "
                 f"line {first.lines[0]}"
             )
+
+
+def _likely_names(table: Cells) -> str:
+    """Point out a line below the first that seems to name the columns, as in files with a title."""
+    for line, row in islice(table.rows.items(), _LOOKED_THROUGH):
+        text = " ".join(row)
+        words = re.sub(r"(?<=[a-z]) (?=[12]\b)", "", re.sub("[,;]", " ", text.lower())).split()
+        if any(len(set(form).intersection(words)) >= len(form) - 1 for form in (POINTS, CYLINDRICAL)):
+            return f', and not line {line}: "{text[:60]}"'
+    return ""
+
+
+def _form(columns: set[str]) -> tuple[str, ...]:
+    """Choose the form that `columns` belong to."""
+    forms = [form for form in (POINTS, CYLINDRICAL) if columns.issuperset(form)]
+    if len(forms) == 1 and "section" in columns:
+        return forms[0]
+    both = f"section, {', '.join(POINTS)} or section, {', '.join(CYLINDRICAL)}"
+    if len(forms) == 2:
+        raise ValueError(f"has the columns of both forms; must have either {both}")
+    bare = {re.split(r"\s*[\[(]", column)[0] for column in columns}
+    if not forms and any(bare.issuperset(form) for form in (POINTS, CYLINDRICAL)):
+        raise ValueError("has units behind the names of its columns; give them as unit and angle_unit")
+    closest = max((POINTS, CYLINDRICAL), key=lambda form: len(columns.intersection(form)))
+    form = ("section", *(forms[0] if forms else closest))
+    missing = [name for name in form if name not in columns]
+    requirement = ", ".join(form) if len(missing) < len(form) else both
+    raise ValueError(f"has no column {', '.join(missing)}; must have {requirement}")

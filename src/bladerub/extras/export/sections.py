@@ -7,7 +7,7 @@ import pandas as pd
 
 from bladerub.blade.geometry import BladeShape
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.section_text import CYLINDRICAL, POINTS
+from bladerub.extras.blades.section_table import CYLINDRICAL, POINTS
 from bladerub.io import atomic
 
 N_SECTIONS, N_STATIONS = 21, 61
