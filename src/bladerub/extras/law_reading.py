@@ -14,6 +14,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from pydantic import TypeAdapter
+
 from bladerub import plugins
 from bladerub.contact.laws import NAMES
 from bladerub.contact.spec import PLASTIC, ElementLaw
@@ -35,6 +37,9 @@ class Parameter(NamedTuple):
     minimum: float
     maximum: float
     meaning: str
+
+
+_PARAMETERS = TypeAdapter(dict[str, Parameter])
 
 
 def source_of(law: ElementLaw) -> str:
@@ -111,10 +116,8 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
     for node in _statements(source):
         if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == "PARAMETERS":
             try:
-                parameters = {
-                    name: Parameter(*map(_plain, entry.elts)) for name, entry in _entries(node.value)
-                }
-            except (AttributeError, TypeError, ValueError, RecursionError, MemoryError) as error:
+                parameters = _PARAMETERS.validate_python(ast.literal_eval(node.value))
+            except (TypeError, ValueError, RecursionError, MemoryError) as error:
                 requirement = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
                 raise ValueError(f"PARAMETERS on line {node.lineno}: {requirement}") from error
     names = _names_in(source)
@@ -177,11 +180,3 @@ def _names_in(source: str) -> set[str]:
         elif isinstance(node, ast.Assign):
             names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
     return names
-
-
-def _entries(node: Any) -> list[tuple[str, Any]]:
-    return [(ast.literal_eval(key), value) for key, value in zip(node.keys, node.values, strict=True)]
-
-
-def _plain(node: ast.expr) -> Any:
-    return ast.literal_eval(node)
