@@ -1,14 +1,13 @@
-"""A law of the coating and its parameters, as options of a command."""
+"""The parameters of a law of the coating, as an option of a command."""
 
 import argparse
+from typing import Any
 
 from bladerub.cli import inputs
 from bladerub.io.errors import BadInput
 
-
-def add_law_parameters_to(parser: inputs.Parser, option: str, text: str) -> None:
-    """Add the option for the parameters of a law."""
-    parser.option(option, text, action="append", default=[], metavar="NAME=VALUE")
+PARAMETER: dict[str, Any] = {"action": "append", "default": [], "metavar": "NAME=VALUE"}
+"""How an option for them is added."""
 
 
 def law_parameters(option: str, settings: list[str]) -> dict[str, float | str]:

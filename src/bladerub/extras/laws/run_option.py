@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from bladerub.cli import inputs
 from bladerub.cli.run_option import RunOption
-from bladerub.extras.law_options import add_law_parameters_to, law_parameters
+from bladerub.extras.law_options import PARAMETER, law_parameters
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ class LawOption(RunOption):
         text = "law of the elements by its name (docs/laws.md) or its file, instead of contact.law"
         parser.option("--law", text, metavar="LAW")
         text = "parameter of --law, SI units or with its unit; once for each of them"
-        add_law_parameters_to(parser, "--law-parameter", text)
+        parser.option("--law-parameter", text, **PARAMETER)
 
     def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Refuse a law of the rigid casing, and parameters of none."""

@@ -6,7 +6,7 @@ from typing import Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
-from bladerub.extras.law_options import add_law_parameters_to, law_parameters
+from bladerub.extras.law_options import PARAMETER, law_parameters
 from bladerub.extras.law_reading import law_of
 from bladerub.extras.law_settings import law_entry
 from bladerub.io.errors import BadInput
@@ -27,9 +27,8 @@ def add_to(commands: Any) -> None:
     )
     text = "Python file of a law, which is run, or the name of a law of the package"
     parser.add_argument("law", metavar="LAW", help=text)
-    add_law_parameters_to(
-        parser, "--parameter", "parameter of the law, SI units or with its unit; once for each of them"
-    )
+    text = "parameter of the law, SI units or with its unit; once for each of them"
+    parser.option("--parameter", text, **PARAMETER)
     parser.option("--seed", "of the histories, 0 or more (default 0)", int, metavar="N", default=0)
 
 
