@@ -2,4 +2,4 @@
 
 SECTIONS = {"friction": "extras.friction.settings:FRICTION"}
 COATINGS = {"friction": "extras.friction.coatings:compared"}
-AGREEMENTS = {"friction": "extras.friction.agreement:problems"}
+AGREEMENTS = {"friction": "extras.friction.coatings:problems"}
