@@ -12,8 +12,10 @@ from bladerub.extras import plans
 from bladerub.extras.rotor.settings import RotorPlan
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.rows.study import drawn
+from bladerub.io.folders import study_folder
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec, speed_name
+from bladerub.study.inventory import Inventory, take
 from bladerub.study.plan import CoatingPlan, planned_run
 
 _LISTS = ("f_omega", "blades", "length_scatter", "frequency_scatter", "coupling")
@@ -158,3 +160,15 @@ def described(combination: Combination) -> dict[str, Any]:
     values = asdict(combination)
     case = values.pop("case")
     return {name: case[name] for name in ("casing", "E", "K", "theta")} | values
+
+
+def inventories(config: Config, results: Path, digest: str | None, thorough: bool) -> list[Inventory]:
+    """Count the runs of the rows of blades, if any were begun."""
+    path = study_folder() / PLAN
+    if not ((results / RUNS).exists() and path.exists()):
+        return []
+    plan = read_plan(path, config)
+    return [
+        take(config, plan.runs(config, name), results / RUNS / name, digest, thorough)
+        for name in plan.combinations
+    ]

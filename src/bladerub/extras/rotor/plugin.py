@@ -1,4 +1,4 @@
 """Rows of blades."""
 
 NEEDS = ("rows",)
-INVENTORIES = {"rows of blades": "extras.rotor.inventory:inventories"}
+INVENTORIES = {"rows of blades": "extras.rotor.plan:inventories"}
