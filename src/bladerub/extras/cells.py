@@ -18,6 +18,11 @@ import numpy as np
 LARGEST_FILE = 100_000_000
 """Largest table that is read, in bytes."""
 
+UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}
+UNITS |= {"in": UNITS["inch"], "ft": UNITS["feet"]}  # m
+ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180}  # rad
+"""Units of length and of angle by name, in SI."""
+
 _SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", None: "white space"}
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}", re.ASCII)

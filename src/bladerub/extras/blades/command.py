@@ -3,7 +3,6 @@
 import argparse
 import os
 import sys
-from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,11 +14,10 @@ from bladerub.config import read as configuration
 from bladerub.extras.blades import origin, section_table
 from bladerub.extras.blades.frame import AXES, Frame
 from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource, Source
-from bladerub.extras.file_units import ANGLE_UNITS, UNITS
+from bladerub.extras.cells import ANGLE_UNITS, UNITS
 from bladerub.io.folders import base_config, study_folder
 
 if TYPE_CHECKING:  # load numba, NumPy
-    from bladerub.blade.built import BuiltBlade
     from bladerub.blade.model import ReducedBlade
     from bladerub.settings.fields import Section
     from bladerub.settings.study import Config
@@ -124,14 +122,6 @@ def _refuse_at_once(path: Path) -> None:
             section_table.read_cells(path)
 
 
-def _keep(built: "BuiltBlade", config: "Config") -> None:
-    """Keep the blade for its study, which else builds it itself."""
-    from bladerub.extras.blades.kept import keep
-
-    with suppress(OSError):
-        keep(built, config)
-
-
 def _changed(group: "Section", of_study: "Section") -> dict[str, Any]:
     """Values that are not those of the study, which the printed config has to give as well."""
     study_values = of_study.plain()
@@ -148,6 +138,7 @@ def _read_mesh(
     from bladerub.blade.build import reduce_meshed
     from bladerub.blade.model import n_interface
     from bladerub.extras.blades import importing
+    from bladerub.extras.blades.kept import keep
     from bladerub.extras.blades.report import mesh_report
 
     config, doubt = _take_material(source, config.replaced("reduction.accuracy_speeds", speeds))
@@ -157,7 +148,7 @@ def _read_mesh(
         print(f"bladerub import: reducing a mesh of {nodes} nodes at {speeds} speeds", file=sys.stderr)
     config = config.replaced("blade.length", round(imported.blade.length, 6))
     built = reduce_meshed(imported.blade, config)
-    _keep(built, config)
+    keep(built, config)
     material = config.blade.material
     figures = mesh_report(source, imported, built, material, nominal) | {"material": material.plain()}
     figures["warnings"] = [*filter(None, [doubt]), *figures["warnings"]]
@@ -223,6 +214,7 @@ def _read_matrices(
 ) -> "tuple[dict[str, Any], ReducedBlade]":
     """Import and reduce the matrices of `source`; return the figures and the reduced blade."""
     from bladerub.blade.build import reduce_given
+    from bladerub.extras.blades.kept import keep
     from bladerub.extras.blades.matrices import import_matrices
     from bladerub.extras.blades.report import matrix_report
 
@@ -232,7 +224,7 @@ def _read_matrices(
     )
     config = config.replaced("blade.length", round(imported.blade.layout.length, 6))
     built = reduce_given(imported.blade, config)
-    _keep(built, config)
+    keep(built, config)
     return matrix_report(source, imported, built, nominal), built.reduced
 
 

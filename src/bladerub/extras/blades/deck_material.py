@@ -5,7 +5,7 @@ from pathlib import Path
 
 from bladerub.extras.blades import deck
 from bladerub.extras.blades.frame import FORCES
-from bladerub.extras.file_units import UNITS
+from bladerub.extras.cells import UNITS
 from bladerub.settings.blade import Material
 
 _YOUNG = (1e9, 1e12)  # Pa, from plastics to ceramics

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bladerub.extras.file_units import UNITS
+from bladerub.extras.cells import UNITS
 
 FORCES = dict.fromkeys(("inch", "in", "feet", "ft"), 4.4482216152605)  # N, where a unit is not of N
 LENGTHS = (0.01, 3.0)  # limits of the length of a blade, m, as those of ``blade.length`` of the config

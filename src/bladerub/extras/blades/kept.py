@@ -11,10 +11,11 @@ from bladerub.settings.study import Config
 
 
 def keep(blade: BuiltBlade, config: Config) -> None:
-    """Keep the blade of `config` for its study; raises OSError if it cannot be written."""
-    path = kept_at(config)
-    if not is_built(config, path):
-        built.write(blade, provenance(config.plain()), *paths(path))
+    """Keep the blade of `config` for its study, which builds it itself where it cannot be written."""
+    with suppress(OSError):
+        path = kept_at(config)
+        if not is_built(config, path):
+            built.write(blade, provenance(config.plain()), *paths(path))
 
 
 def kept(config: Config) -> BuiltBlade | None:

@@ -14,7 +14,7 @@ from scipy.io import mminfo, mmread
 from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.extras import cells
 from bladerub.extras.blades.element_quality import FARTHEST
-from bladerub.extras.blades.foreign import refuse_content
+from bladerub.extras.blades.origin import refuse_content
 from bladerub.extras.cells import Cells
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 

@@ -15,7 +15,6 @@ import numpy as np
 from bladerub.blade.surface import EDGES
 from bladerub.extras.blades import deck_mesh, origin
 from bladerub.extras.blades.deck_mesh import Content
-from bladerub.extras.blades.foreign import refuse_content
 from bladerub.io.optional import package
 
 meshio = package("meshio", "mesh")
@@ -78,7 +77,7 @@ def _read_by_meshio(path: Path) -> meshio.Mesh:
         with redirect_stderr(warnings):  # where meshio prints them
             mesh = _READERS[path.suffix.lower()](str(path))
     except Exception as error:  # readers of foreign files raise all kinds of errors
-        refuse_content(path, error)
+        origin.refuse_content(path, error)
     if warnings.getvalue():
         log.warning("%s: %s", path, " ".join(warnings.getvalue().split()))
     return mesh

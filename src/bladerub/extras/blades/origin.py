@@ -1,10 +1,12 @@
-"""Where a blade comes from: the ``blade.source`` block of the config."""
+"""Where a blade comes from: the ``blade.source`` block of the config, and faults of its files."""
 
+import errno
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from bladerub.extras.blades.frame import Frame
+from bladerub.io.errors import is_refused
 from bladerub.io.folders import study_folder
 from bladerub.io.optional import package
 
@@ -34,7 +36,7 @@ class Source:
     root_set: str | None = None
     tip_set: str | None = None
     tip_cone: float | None = None  # half angle of the flow path at the tip, degrees, positive: it widens
-    angle_unit: str | None = None  # of a table, one of `bladerub.extras.file_units.ANGLE_UNITS`; else rad
+    angle_unit: str | None = None  # of a table, one of `bladerub.extras.cells.ANGLE_UNITS`; else rad
 
     def __post_init__(self):
         kind = "mesh" if self.is_table else "table of sections"
@@ -106,3 +108,12 @@ def check_file(path: Path) -> None:
         raise ValueError("there is no such file")
     if path.stat().st_size == 0:
         raise ValueError("is empty")
+
+
+def refuse_content(path: Path, error: Exception) -> NoReturn:
+    """Raise the `error` of a foreign reader: a ValueError of what it read, an OSError of the system."""
+    if is_refused(error) and error.errno != errno.EINVAL:  # that is of offsets in damaged archives
+        error.filename = error.filename or str(path)
+        raise error
+    reason = str(error) or type(error).__name__
+    raise ValueError(f"is not a {path.suffix.lower()} file that can be read ({reason})") from error

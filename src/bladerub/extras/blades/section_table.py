@@ -20,8 +20,7 @@ import numpy as np
 from bladerub.extras import cells
 from bladerub.extras.blades import origin
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.cells import Cells
-from bladerub.extras.file_units import ANGLE_UNITS
+from bladerub.extras.cells import ANGLE_UNITS, Cells
 
 POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
 CYLINDRICAL = ("z", "r", "theta1", "theta2")

@@ -10,7 +10,7 @@ from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.extras import cells
 from bladerub.extras.casings.settings import MeasuredCasing
-from bladerub.extras.file_units import ANGLE_UNITS, UNITS
+from bladerub.extras.cells import ANGLE_UNITS, UNITS
 from bladerub.io.folders import study_folder
 
 MEASURED_ANGLES = (8, 10_000)
