@@ -1,15 +1,14 @@
 """The plan of rows: groups of combinations, each with draws of its blades."""
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from bladerub.config.errors import ConfigError
-from bladerub.config.files import Located
 from bladerub.extras import plans
-from bladerub.extras.rotor.settings import RotorPlan
+from bladerub.extras.rotor.settings import Group, RotorPlan
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.rows.study import drawn
 from bladerub.io.folders import study_folder
@@ -103,56 +102,45 @@ def read_plan(path: str | Path, config: Config) -> Plan:
     key, value and what would be right.
     """
     located = plans.read_plan(path, RotorPlan, study=config)
-    plan = located.plain()
-    sections = {name: located.content[name] for name in ("groups", "sweeps") if name in plan}
-    if "patterns" in plan:
-        sections["patterns.groups"] = located.content["patterns"].content["groups"]
+    plan = RotorPlan.model_validate(located.plain())
+    sections = {"groups": plan.groups, "sweeps": plan.sweeps or {}}
+    sections["patterns.groups"] = plan.patterns.groups if plan.patterns else {}
+    pairs: dict[str, list[tuple[Combination, int]]] = {}
     for section, groups in sections.items():
-        for name, group in groups.content.items():
-            _check(f"{section}.{name}", group, config)
-    pairs = {
-        section: [pair for group in groups.plain().values() for pair in _combinations_of(group)]
-        for section, groups in sections.items()
-    }
-    followed = pairs.pop("patterns.groups", [])
-    patterns = {name: plan["patterns"][name] for name in ("harmonic", "interval")} if followed else {}
-    draws: dict[str, int] = {}
+        pairs[section] = []
+        for name, group in groups.items():
+            if problem := _problem(group, config):
+                key = f"{section}.{name}"
+                raise ConfigError.at(located.locations()[key], f"{key}.{problem}")
+            pairs[section] += _combinations_of(group)
+    followed = dict(pairs.pop("patterns.groups"))
+    combinations, draws = {}, {}
     for combination, n in itertools.chain(*pairs.values()):
+        combinations[combination.name] = combination
         draws[combination.name] = max(n, draws.get(combination.name, 0))
-    return Plan(
-        plan["seed"],
-        {combination.name: combination for combination, _ in itertools.chain(*pairs.values())},
-        draws,
-        *(
-            tuple(dict.fromkeys(combination.name for combination, _ in pairs.get(section, [])))
-            for section in ("groups", "sweeps")
-        ),
-        Patterns(**patterns, draws=dict(followed)) if followed else None,
-    )
+    names = (dict.fromkeys(combination.name for combination, _ in members) for members in pairs.values())
+    patterns = Patterns(plan.patterns.harmonic, plan.patterns.interval, followed) if followed else None
+    return Plan(plan.seed, combinations, draws, *map(tuple, names), patterns)
 
 
-def _combinations_of(group: Mapping[str, Any]) -> Iterator[tuple[Combination, int]]:
+def _combinations_of(group: Group) -> Iterator[tuple[Combination, int]]:
     """Yield the combinations of a group, and of its single nominal blades, with their numbers of draws."""
-    case = CoatingCase(group["casing"], *(float(group[name]) for name in ("E", "K", "theta")))
-    for values in itertools.product(*(group[name] for name in _LISTS)):
+    case = CoatingCase(group.casing, group.E, group.K, group.theta)
+    for values in itertools.product(*(getattr(group, name) for name in _LISTS)):
         combination = Combination(case, *values)
+        differ = combination.length_scatter or combination.frequency_scatter
         yield combination.alone, 1
-        yield (
-            combination,
-            group["draws"] if combination.length_scatter or combination.frequency_scatter else 1,
-        )
+        yield combination, group.draws if differ else 1
 
 
-def _check(name: str, located: Located, config: Config) -> None:
-    group, fastest = located.plain(), config.reduction.f_omega_max
-    if group["casing"] not in config.casings:
-        names = ", ".join(config.casings)
-        text = f'{name}.casing = "{group["casing"]}": must be one of the casings, {names}'
-        raise ConfigError.at(located.location, text)
-    for f_omega in group["f_omega"]:
-        if f_omega > fastest:
-            text = f"{name}.f_omega: {f_omega:g}: must be at most reduction.f_omega_max = {fastest:g}"
-            raise ConfigError.at(located.location, text)
+def _problem(group: Group, config: Config) -> str | None:
+    """Say which key of a group the study does not have, with what would be right."""
+    if group.casing not in config.casings:
+        return f'casing = "{group.casing}": must be one of the casings, {", ".join(config.casings)}'
+    fastest, highest = max(group.f_omega), config.reduction.f_omega_max
+    if fastest > highest:
+        return f"f_omega: {fastest:g}: must be at most reduction.f_omega_max = {highest:g}"
+    return None
 
 
 def described(combination: Combination) -> dict[str, Any]:
