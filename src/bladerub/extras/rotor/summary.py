@@ -89,28 +89,24 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
     the distribution, and the 5 and 95 % quantiles. The amplitude of a row that ended early is that of its
     last revolutions, as far as they were made.
     """
-    rows: list[dict[str, Any]] = []
+    rows = []
     for what, of_what in table.groupby(WHAT, sort=False):
-        measures = {name: _quantiles(of_what[name].dropna().to_numpy()) for name in _MEASURED}
         counts = of_what["wear_harmonic"].value_counts()
-        rows.append(
-            dict(zip(WHAT, what, strict=True))
-            | {
-                f"{name}_{key}": value
-                for name, quantiles in measures.items()
-                for key, value in quantiles.items()
-            }
-            | {
-                "rows": len(of_what),
-                "unbounded_rows": int((of_what["status"] == "unbounded").sum()),
-                "divergent_rows": int(of_what["divergent"].sum()),
-                "lobes_lowest": int(of_what["lobes"].min()),
-                "lobes_highest": int(of_what["lobes"].max()),
-                "wear_harmonic": int(counts.index[0]),
-                "wear_harmonic_rows": int(counts.iloc[0]),
-                "energy_residual": float(of_what["energy_residual"].max()),
-            }
-        )
+        row: dict[str, Any] = {
+            **dict(zip(WHAT, what, strict=True)),
+            "rows": len(of_what),
+            "unbounded_rows": int((of_what["status"] == "unbounded").sum()),
+            "divergent_rows": int(of_what["divergent"].sum()),
+            "lobes_lowest": int(of_what["lobes"].min()),
+            "lobes_highest": int(of_what["lobes"].max()),
+            "wear_harmonic": int(counts.index[0]),
+            "wear_harmonic_rows": int(counts.iloc[0]),
+            "energy_residual": float(of_what["energy_residual"].max()),
+        }
+        for name in _MEASURED:
+            quantiles = _quantiles(of_what[name].dropna().to_numpy())
+            row |= {f"{name}_{statistic}": value for statistic, value in quantiles.items()}
+        rows.append(row)
     return pd.DataFrame(rows)[COLUMNS]
 
 
