@@ -18,7 +18,6 @@ rule cost:
         lambda wildcards: [path for name in added() for path in ADDED_TO_ALL[name]],
         maps=expand(rules.coating.output.map, coating=COATINGS),
         collecting=files_behind("extras.cost.jobs"),
-        drawing=files_behind("extras.cost.figure"),
     output:
         **described(table=f"{MEASURED}/cost.csv"),
         png=shown(f"{MEASURED}/cost.png", "cost", "7. Cost"),

@@ -4,8 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extras.cost.figure import cost
-from bladerub.extras.cost.jobs import by_stage, table
+from bladerub.extras.cost.jobs import by_stage, cost, table
 from bladerub.workflow import outputs
 
 costs = table(snakemake.params.benchmarks, snakemake.params.added)

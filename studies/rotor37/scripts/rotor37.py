@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.plots import rotor37 as plots
@@ -34,7 +35,10 @@ parts = {
     "coatings": [case.name for case in cases if not case.is_rigid],
 }
 for name, files in parts.items():
-    by_set = {one: numbers.collect(f"{folder}/{one}/numbers/{file}.csv" for file in files) for one in sets}
+    by_set = {
+        one: pd.concat(tables.read(f"{folder}/{one}/numbers/{file}.csv", numbers.COLUMNS) for file in files)
+        for one in sets
+    }
     table = reference.with_uncertainty(by_set)
     outputs.save(snakemake, origin=origin, digits="%.7g", **{name: table})
 

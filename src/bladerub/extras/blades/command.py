@@ -11,7 +11,7 @@ import yaml
 
 from bladerub.cli import inputs
 from bladerub.config import read as configuration
-from bladerub.extras.blades import origin, section_table
+from bladerub.extras.blades import origin, section_table, settings
 from bladerub.extras.blades.frame import AXES, Frame
 from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.extras.cells import ANGLE_UNITS, UNITS
@@ -23,10 +23,6 @@ if TYPE_CHECKING:  # load numba, NumPy
     from bladerub.settings.study import Config
 
 _FEWEST_SPEEDS = 5
-_NAMES = (
-    *("unit", "angle_unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone"),
-    *("matrix_units", "omega_max"),
-)
 
 
 def add_to(commands: Any) -> None:
@@ -74,7 +70,8 @@ def import_blade(options: argparse.Namespace) -> None:
     if not path.is_dir():
         _refuse_at_once(path)
     config = inputs.read_config(options)
-    option_values = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
+    given = {name: getattr(options, name, None) for name in settings.Source.model_fields if name != "file"}
+    option_values = {name: value for name, value in given.items() if value is not None}
     kind = "matrices" if path.is_dir() else "file"
     folder = study_folder()
     entry_path = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
@@ -85,9 +82,6 @@ def import_blade(options: argparse.Namespace) -> None:
     entry = {kind: str(entry_path)} | asdict(Frame()) | source_settings | option_values
 
     nominal = config.figures.nominal_speed if options.rpm is None else options.rpm
-
-    from bladerub.extras.blades import settings
-
     config = config.replaced("blade.source", settings.Source.model_construct(**entry))
     with inputs.refused(ValueError):
         source = origin.read(config.blade.source)

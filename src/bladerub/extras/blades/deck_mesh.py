@@ -150,14 +150,14 @@ class _Model:
                 self.node_sets.add(block.parameters["NSET"], [number], in_part, line.place)
 
     def _add_elements(self, block: Block, in_part: bool) -> None:
-        kind = _kind(block)
-        for line, (number, *nodes) in _elements(block, kind):
+        size = _size(block)
+        for line, (number, *nodes) in _elements(block, size):
             if absent := [node for node in nodes if node not in self.rows]:
                 raise ValueError(f"{line.place}: node {absent[0]} of element {number} is not there")
             if self.nodes.setdefault(number, nodes) is not nodes:
                 raise ValueError(f"{line.place}: element {number} is there twice")
-            if kind:
-                self.kinds[number] = kind
+            if size:
+                self.kinds[number] = _KINDS[size]
             if "ELSET" in block.parameters:
                 self.element_sets.add(block.parameters["ELSET"], [number], in_part, line.place)
 
@@ -207,30 +207,28 @@ def _name(block: Block, parameter: str) -> str:
     return block.parameters[parameter]
 
 
-def _kind(block: Block) -> str | None:
-    """Kind of meshio of the elements of a block; None of lines and surfaces."""
+def _size(block: Block) -> int | None:
+    """Count the nodes of each solid element of a block; None of lines and surfaces."""
     name = _name(block, "TYPE").upper()
     solid = _SOLID.fullmatch(name)
     if solid and int(solid[1]) in _KINDS:
-        return _KINDS[int(solid[1])]
+        return int(solid[1])
     if not _MARKING.fullmatch(name):
         raise ValueError(f"{block.place}: has elements of type {name}, which are not read; leave them out")
     return None
 
 
-def _elements(block: Block, kind: str | None) -> Iterator[tuple[Line, list[int]]]:
+def _elements(block: Block, size: int | None) -> Iterator[tuple[Line, list[int]]]:
     """Yield number and nodes of each element, and its last line."""
-    n_numbers = next((n + 1 for n, name in _KINDS.items() if name == kind), None)
     numbers: list[int] = []
     for line in block.lines:
         numbers += [_whole(cell, line) for cell in line.cells()]
-        if n_numbers is None and line.text.endswith(","):
+        if size is None and line.text.endswith(","):
             continue
-        if n_numbers is not None and len(numbers) > n_numbers:
-            raise ValueError(
-                f"{line.place}: element {numbers[0]} has {len(numbers) - 1} nodes, must have {n_numbers - 1}"
-            )
-        if n_numbers in (None, len(numbers)):
+        count = len(numbers) - 1
+        if size is not None and count > size:
+            raise ValueError(f"{line.place}: element {numbers[0]} has {count} nodes, must have {size}")
+        if size in (None, count):
             yield line, numbers
             numbers = []
     if numbers:

@@ -91,7 +91,6 @@ def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
 def read_nodes(path: Path) -> Nodes:
     """Read ``nodes.csv``; a ValueError names the line."""
     table = cells.read(path)
-    names = [name.lower() for name in table.names]
     table.require(*_POSITION, "interface")
     names = [name.lower() for name in table.names]
     lines = list(table.rows)

@@ -22,8 +22,20 @@ _DEFAULT_JOB_RATE = (100, 1)  # jobs, seconds
 
 
 def begin() -> None:
-    """Be ready for Ctrl-C, once an invocation is planned."""
-    _take_two_interrupts_for_one()
+    """Ignore a second Ctrl-C that comes while Snakemake ends after the first, for a few seconds.
+
+    It would break off what ends the jobs, in a traceback of Snakemake's event loop.
+    """
+    last = -math.inf
+
+    def interrupt(number: int, frame: Any) -> None:
+        nonlocal last
+        previous, last = last, time.monotonic()
+        if last - previous > _SECOND_INTERRUPT:
+            signal.default_int_handler(number, frame)
+
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
 
 
 def start(workflow: Any, results: Iterable[str]) -> None:
@@ -40,23 +52,6 @@ def start(workflow: Any, results: Iterable[str]) -> None:
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
     for folder in results:
         date_back(folder)
-
-
-def _take_two_interrupts_for_one() -> None:
-    """Ignore a second Ctrl-C that comes while Snakemake ends after the first, for a few seconds.
-
-    It would break off what ends the jobs, in a traceback of Snakemake's event loop.
-    """
-    last = -math.inf
-
-    def interrupt(number: int, frame: Any) -> None:
-        nonlocal last
-        previous, last = last, time.monotonic()
-        if last - previous > _SECOND_INTERRUPT:
-            signal.default_int_handler(number, frame)
-
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, interrupt)
 
 
 def date_back(results: str | Path) -> None:

@@ -1,7 +1,6 @@
 """The numbers that other codes can be compared with: of the blade, of direct contact, of coatings."""
 
-from collections.abc import Iterable, Iterator
-from pathlib import Path
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
@@ -11,7 +10,6 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.blade.tip import tip_radius
 from bladerub.contact.result import RunResult
 from bladerub.extras.blades.similarity import tip_stiffness
-from bladerub.io import tables
 from bladerub.settings.study import Config
 from bladerub.study import divergence, peaks
 from bladerub.study.maps import CoatingMap
@@ -101,8 +99,3 @@ def _peak(
 
 def _numbers(rows: list[tuple[str, float, str]]) -> pd.DataFrame:
     return pd.DataFrame([(*row, 0.0) for row in rows], columns=COLUMNS)
-
-
-def collect(paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Read tables with `COLUMNS` into one."""
-    return pd.concat([tables.read(path, COLUMNS) for path in paths], ignore_index=True)
