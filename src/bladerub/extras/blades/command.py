@@ -11,10 +11,10 @@ import yaml
 
 from bladerub.cli import inputs
 from bladerub.config import read as configuration
+from bladerub.config.keys import key_of
 from bladerub.extras.blades import origin, section_table, settings
-from bladerub.extras.blades.frame import AXES, Frame
-from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource, Source
-from bladerub.extras.cells import ANGLE_UNITS, UNITS
+from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.origin import MatrixSource, Source
 from bladerub.io.folders import base_config, study_folder
 
 if TYPE_CHECKING:  # load numba, NumPy
@@ -23,6 +23,7 @@ if TYPE_CHECKING:  # load numba, NumPy
     from bladerub.settings.study import Config
 
 _FEWEST_SPEEDS = 5
+_PLACES = ("file", "matrices")  # keys of ``blade.source`` that the path stands for
 
 
 def add_to(commands: Any) -> None:
@@ -44,24 +45,13 @@ def add_to(commands: Any) -> None:
     )
     text = "mesh (.inp, .msh or .vtu), sections (.csv, .txt or .dat) or folder of matrices"
     parser.add_argument("file", type=Path, metavar="PATH", help=text)
-    parser.option("--unit", "unit of length in the file (default m)", choices=tuple(UNITS))
-    text = "unit of theta1 and theta2 of sections (default rad)"
-    parser.option("--angle-unit", text, choices=tuple(ANGLE_UNITS))
-    for name, meaning in (
-        ("rotation", "the blade turns about this by the right-hand rule (default -x)"),
-        ("downstream", "the air flows along this (default x)"),
-        ("radial", "from root to tip (default z)"),
-    ):
-        parser.option(f"--{name}", f"axis of the file: {meaning}", choices=AXES, metavar="AXIS")
-    parser.option("--root-set", "set of the clamped nodes (default: found)", metavar="NAME")
-    parser.option("--tip-set", "set of the nodes of the tip (default: found)", metavar="NAME")
-    text = "half angle of the casing, positive where it widens downstream (default: fitted to the tip)"
-    parser.option("--tip-cone", text, float, metavar="DEGREES")
-    parser.option("--matrix-units", "of the matrices (default SI)", choices=tuple(MATRIX_UNITS))
     text = "nominal speed of the rotor, revolutions a minute (default: figures.nominal_speed of the config)"
     parser.option("--rpm", text, float, metavar="N")
-    text = "speed of stiffness_max, to be checked against reduction.f_omega_max"
-    parser.option("--omega-max", text, float, metavar="RAD_PER_S")
+    for name, key in key_of(settings.Source).fields().items():
+        if name not in _PLACES:
+            option, text = f"--{name.replace('_', '-')}", key.description.replace("%", "%%")
+            kind = float if key.kind == "a number" else None
+            parser.option(option, text, kind, choices=key.choices or None)
 
 
 def import_blade(options: argparse.Namespace) -> None:
@@ -70,15 +60,13 @@ def import_blade(options: argparse.Namespace) -> None:
     if not path.is_dir():
         _refuse_at_once(path)
     config = inputs.read_config(options)
-    given = {name: getattr(options, name, None) for name in settings.Source.model_fields if name != "file"}
+    given = {name: getattr(options, name) for name in settings.Source.model_fields if name not in _PLACES}
     option_values = {name: value for name, value in given.items() if value is not None}
     kind = "matrices" if path.is_dir() else "file"
     folder = study_folder()
     entry_path = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
     source_settings = config.blade.plain().get("source", {})
-    source_settings = {
-        name: value for name, value in source_settings.items() if name not in ("file", "matrices")
-    }
+    source_settings = {name: value for name, value in source_settings.items() if name not in _PLACES}
     entry = {kind: str(entry_path)} | asdict(Frame()) | source_settings | option_values
 
     nominal = config.figures.nominal_speed if options.rpm is None else options.rpm
