@@ -53,16 +53,19 @@ def check_joined(cells: np.ndarray) -> None:
             f"element {collapsed[0] + 1}: has a node twice ({collapsed.size} such of {len(cells)}); wedges "
             "written as hexahedra must be split into tetrahedra, and all others too"
         )
-    rows = np.repeat(np.arange(len(cells)), cells.shape[1])
-    members = sparse.coo_array((np.ones(cells.size, dtype=np.int8), (rows, cells.ravel()))).tocsr()
-    graph = sparse.block_array([[None, members], [members.T, None]], format="csr")
-    part = connected_components(graph, directed=False)[1][: len(cells)]
-    sizes = np.unique(part, return_counts=True)[1]
+    sizes = np.unique(connected(cells), return_counts=True)[1]
     if sizes.size > 1:
         raise ValueError(
             f"has {sizes.size} bodies that share no nodes, of {', '.join(map(str, sizes[:4]))} elements; "
             "must be one blade: merge nodes where they touch, or leave the others out"
         )
+
+
+def connected(cells: np.ndarray) -> np.ndarray:
+    """Find the number (n,) of the body that each element or face of the nodes `cells` (n, m) is part of."""
+    first = np.repeat(cells[:, 0], cells.shape[1])
+    joined = sparse.coo_array((np.ones(first.size), (first, cells.ravel())), shape=2 * [cells.max() + 1])
+    return connected_components(joined, directed=False)[1][cells[:, 0]]
 
 
 def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:

@@ -5,8 +5,6 @@ from difflib import get_close_matches
 from pathlib import Path
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
 from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
@@ -129,9 +127,7 @@ def facing(points: np.ndarray, faces: np.ndarray, outwards: bool) -> np.ndarray:
             "no part of the surface faces along the radius; do the axes of the blade agree "
             "with rotation, downstream and radial? Or name a node set"
         )
-    rows = np.repeat(np.arange(len(facing_so)), facing_so.shape[1])
-    touching = sparse.coo_array((np.ones(rows.size), (rows, facing_so.ravel())))
-    _, part = connected_components(touching @ touching.T, directed=False)
+    part = element_quality.connected(facing_so)
     height = (sign * np.hypot(points[:, 1], points[:, 2]))[facing_so].max(axis=1)
     return np.unique(facing_so[part == part[np.argmax(height)]])
 
