@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PPoly
 from scipy.spatial import cKDTree
 
 from bladerub.extras.blades.profile import arc_length, camber_line, crossings
@@ -137,22 +137,18 @@ class _Curve:
         chords = np.diff(flat, axis=0)
         turn = np.arctan2(np.abs(_cross(chords[:-1], chords[1:])), np.sum(chords[:-1] * chords[1:], axis=1))
         self.corners = 1 + np.flatnonzero(turn > _CORNER)
-        self._stops = [0, *self.corners, len(flat) - 1]
-        both = np.hstack([place, flat])
-        pieces = [slice(start, stop + 1) for start, stop in pairwise(self._stops)]
-        self._pieces = [CubicSpline(self.knots[piece], both[piece]) for piece in pieces]
         last = len(flat) - 1
+        both = np.hstack([place, flat])
+        pieces = [slice(start, stop + 1) for start, stop in pairwise([0, *self.corners, last])]
+        splines = [CubicSpline(self.knots[piece], both[piece]) for piece in pieces]
+        self._curve = PPoly(np.concatenate([spline.c for spline in splines], axis=1), self.knots)
         fine = np.linspace(0, last, -(-_FINE // last) * last + 1)
         self.fine_parameter = np.interp(fine, np.arange(last + 1), self.knots)
         self.fine = self(self.fine_parameter)[:, 3:]
 
     def __call__(self, parameter: np.ndarray) -> np.ndarray:
         """Places (n, 5): axial position, radius and angle, then the same unrolled."""
-        piece = np.searchsorted(self.knots[self._stops[1:-1]], parameter, side="right")
-        values = np.empty((parameter.size, 5))
-        for index, spline in enumerate(self._pieces):
-            values[piece == index] = spline(parameter[piece == index])
-        return values
+        return self._curve(parameter)
 
 
 def _edge(sides: list[_Curve], thickness: float, name: str) -> tuple[list[float], float]:
