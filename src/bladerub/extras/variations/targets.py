@@ -7,6 +7,7 @@ target here: they are kept to see what a match predicts.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -118,32 +119,32 @@ def _dominance(evidence: Evidence, case: CoatingCase, inside: np.ndarray, harmon
     return share[:, harmonic - 1] - others.max(axis=1)
 
 
-def _between(
-    low: float, high: float, harmonic: int, reduce: Callable[[np.ndarray], float]
-) -> Callable[[Evidence], float]:
-    def dominance(evidence: Evidence) -> float:
-        inside = between(evidence.map(WORN).f_omega, low, high)
-        return float(reduce(_dominance(evidence, WORN, inside, harmonic)))
+def _dominance_between(
+    evidence: Evidence, low: float, high: float, harmonic: int, reduce: Callable[[np.ndarray], float]
+) -> float:
+    inside = between(evidence.map(WORN).f_omega, low, high)
+    return float(reduce(_dominance(evidence, WORN, inside, harmonic)))
 
-    return dominance
+
+def _dominance_at(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase, harmonic: int) -> float:
+    coating, index = _run(evidence, case, speed)
+    return float(_dominance(evidence, case, np.arange(coating.f_omega.size) == index, harmonic)[0])
+
+
+def _maximum_near(coating: CoatingMap, speed: float, values: np.ndarray) -> float:
+    window = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
+    return _refined_maximum(coating.f_omega[window], values[window])[0]
 
 
 def _wear_maximum(evidence: Evidence, speed: float) -> float:
     coating = evidence.map(WORN)
-    window = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
-    return _refined_maximum(coating.f_omega[window], coating.max_wear[window])[0]
+    return _maximum_near(coating, speed, coating.max_wear)
 
 
-def _vibration_offset(order: int, speed: float) -> Callable[[Evidence], float]:
-    def offset(evidence: Evidence) -> float:
-        coating = evidence.map(WORN)
-        window = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
-        halfwidth = evidence.config.analysis.peaks.order_halfwidth
-        amplitude = order_amplitude(coating, order, halfwidth)
-        vibration = _refined_maximum(coating.f_omega[window], amplitude[window])[0]
-        return vibration - _wear_maximum(evidence, speed)
-
-    return offset
+def _vibration_offset(evidence: Evidence, order: int, speed: float) -> float:
+    coating = evidence.map(WORN)
+    amplitude = order_amplitude(coating, order, evidence.config.analysis.peaks.order_halfwidth)
+    return _maximum_near(coating, speed, amplitude) - _wear_maximum(evidence, speed)
 
 
 def _odd_over_even(evidence: Evidence) -> float:
@@ -165,15 +166,16 @@ def _weakest_crossing(evidence: Evidence) -> float:
     return float(np.log(weakest / max(heights)))
 
 
-def _log_ratio(one: CoatingCase, other: CoatingCase, order: int) -> Callable[[Evidence], float]:
-    def ratio(evidence: Evidence) -> float:
-        return float(np.log(_peak(evidence, one, order)[1] / _peak(evidence, other, order)[1]))
-
-    return ratio
+def _log_ratio(evidence: Evidence, one: CoatingCase, other: CoatingCase, order: int) -> float:
+    return float(np.log(_peak(evidence, one, order)[1] / _peak(evidence, other, order)[1]))
 
 
-def _shift(one: CoatingCase, other: CoatingCase, order: int) -> Callable[[Evidence], float]:
-    return lambda evidence: _peak(evidence, one, order)[0] - _peak(evidence, other, order)[0]
+def _peak_speed(evidence: Evidence, case: CoatingCase, order: int) -> float:
+    return _peak(evidence, case, order)[0]
+
+
+def _shift(evidence: Evidence, one: CoatingCase, other: CoatingCase, order: int) -> float:
+    return _peak_speed(evidence, one, order) - _peak_speed(evidence, other, order)
 
 
 def _modulus_peaks(evidence: Evidence) -> pd.DataFrame:
@@ -183,52 +185,33 @@ def _modulus_peaks(evidence: Evidence) -> pd.DataFrame:
     return pd.DataFrame(peaks, columns=["E", "K", "f4", "Y4"])
 
 
-def _over_hardening(reduce: Callable[[np.ndarray], float]) -> Callable[[Evidence], float]:
+def _over_hardening(evidence: Evidence, reduce: Callable[[np.ndarray], float]) -> float:
     """Find the smallest over E of `reduce` of f4 over ascending K, of each E that contact stiffens."""
-
-    def smallest(evidence: Evidence) -> float:
-        peaks = _modulus_peaks(evidence).sort_values("K")
-        peaks = peaks[peaks.E > STIFFENING_FROM]
-        values = [reduce(group.f4.to_numpy()) for _, group in peaks.groupby("E") if len(group) >= 2]
-        if not values:
-            raise NotMeasurable(f"no E above {STIFFENING_FROM:g} with two K or more")
-        return float(min(values))
-
-    return smallest
+    peaks = _modulus_peaks(evidence).sort_values("K")
+    peaks = peaks[peaks.E > STIFFENING_FROM]
+    values = [reduce(group.f4.to_numpy()) for _, group in peaks.groupby("E") if len(group) >= 2]
+    if not values:
+        raise NotMeasurable(f"no E above {STIFFENING_FROM:g} with two K or more")
+    return float(min(values))
 
 
-def _over_modulus(column: str, reduce: Callable[[np.ndarray], float]) -> Callable[[Evidence], float]:
+def _over_modulus(evidence: Evidence, column: str, reduce: Callable[[np.ndarray], float]) -> float:
     """Find the greatest over the low K of `reduce` of f4 or Y4 over E."""
-
-    def greatest(evidence: Evidence) -> float:
-        peaks = _modulus_peaks(evidence)
-        peaks = peaks[(peaks.K <= SOFT_HARDENING) & (peaks.E >= SOFTEST)]
-        values = [reduce(group[column].to_numpy()) for _, group in peaks.groupby("K") if len(group) >= 2]
-        if not values:
-            raise NotMeasurable(f"no K up to {SOFT_HARDENING:g} with two E or more")
-        return float(max(values))
-
-    return greatest
+    peaks = _modulus_peaks(evidence)
+    peaks = peaks[(peaks.K <= SOFT_HARDENING) & (peaks.E >= SOFTEST)]
+    values = [reduce(group[column].to_numpy()) for _, group in peaks.groupby("K") if len(group) >= 2]
+    if not values:
+        raise NotMeasurable(f"no K up to {SOFT_HARDENING:g} with two E or more")
+    return float(max(values))
 
 
-def _growth_at(case: CoatingCase, speed: float | CoatingCase) -> Callable[[Evidence], float]:
-    def beyond_limit(evidence: Evidence) -> float:
-        coating, index = _run(evidence, case, speed)
-        if coating.status[index] == "unbounded":
-            return _GREATEST_GROWTH
-        settings = evidence.config.analysis.divergence
-        excess = growth(coating.revolution_amplitude[index], settings).per_revolution - settings.growth
-        return float(np.clip(excess, -_GREATEST_GROWTH, _GREATEST_GROWTH))
-
-    return beyond_limit
-
-
-def _six_at(case: CoatingCase, speed: float | CoatingCase) -> Callable[[Evidence], float]:
-    def dominance(evidence: Evidence) -> float:
-        coating, index = _run(evidence, case, speed)
-        return float(_dominance(evidence, case, np.arange(coating.f_omega.size) == index, 6)[0])
-
-    return dominance
+def _growth_at(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase) -> float:
+    coating, index = _run(evidence, case, speed)
+    if coating.status[index] == "unbounded":
+        return _GREATEST_GROWTH
+    settings = evidence.config.analysis.divergence
+    excess = growth(coating.revolution_amplitude[index], settings).per_revolution - settings.growth
+    return float(np.clip(excess, -_GREATEST_GROWTH, _GREATEST_GROWTH))
 
 
 def _run(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase) -> tuple[CoatingMap, int]:
@@ -249,18 +232,21 @@ def _speeds() -> Iterator[Target]:
         ("f6_tilted", "C11a", TILTED, 6, TILTED_SPEED),
         ("f6_straight", "C11b", STRAIGHT, 6, STRAIGHT_SPEED),
     ):
-        yield Target(name, part, EQUAL, paper, read, lambda e, c=case, k=order: _peak(e, c, k)[0])
+        yield Target(name, part, EQUAL, paper, read, partial(_peak_speed, case=case, order=order))
     for name, part, speed in (("wear_0.26", "C3a", 0.26), ("wear_0.38", "C3b", 0.38)):
-        yield Target(name, part, EQUAL, speed, read, lambda e, f=speed: _wear_maximum(e, f))
-    yield Target("offset_0.26", "C3c", EQUAL, 0.0, _OTHER_BLADE, _vibration_offset(5, 0.26))
-    yield Target("offset_0.38", "C3d", EQUAL, 0.0, _OTHER_BLADE, _vibration_offset(4, 0.38))
+        yield Target(name, part, EQUAL, speed, read, partial(_wear_maximum, speed=speed))
+    for name, part, order, speed in (("offset_0.26", "C3c", 5, 0.26), ("offset_0.38", "C3d", 4, 0.38)):
+        offset = partial(_vibration_offset, order=order, speed=speed)
+        yield Target(name, part, EQUAL, 0.0, _OTHER_BLADE, offset)
 
 
 def _worn_lobes() -> Iterator[Target]:
     for part, (low, high) in zip(("C2a", "C2b"), FIVE_LOBES, strict=True):
-        yield Target(f"five_{low:g}_{high:g}", part, AT_LEAST, 0.0, _SHARE, _between(low, high, 5, np.mean))
+        dominance = partial(_dominance_between, low=low, high=high, harmonic=5, reduce=np.mean)
+        yield Target(f"five_{low:g}_{high:g}", part, AT_LEAST, 0.0, _SHARE, dominance)
     for part, count, speed in (("C2c", 10, TEN_LOBES), ("C2d", 4, FOUR_LOBES)):
-        dominance = _between(speed - NEAR, speed + NEAR, count, np.max)
+        near = {"low": speed - NEAR, "high": speed + NEAR}
+        dominance = partial(_dominance_between, **near, harmonic=count, reduce=np.max)
         yield Target(f"harmonic_{count}_{speed:g}", part, AT_LEAST, 0.0, _SHARE, dominance)
 
 
@@ -268,34 +254,40 @@ def _heights() -> Iterator[Target]:
     low = float(np.log(SIGNIFICANT))
     yield Target("odd_over_even", "C4c", AT_MOST, low, 0.2, _odd_over_even)
     yield Target("weakest_crossing", "C5c", AT_LEAST, low, 0.2, _weakest_crossing)
+    tilt = {"one": TILTED, "other": STRAIGHT}
     for order, critical, tilted in ((4, "C5a", "C10a"), (6, "C5b", "C10b")):
-        yield Target(f"Y{order}_critical", critical, AT_LEAST, 0.0, _RATIO, _log_ratio(CRITICAL, SOFT, order))
-        yield Target(f"Y{order}_tilted", tilted, AT_MOST, 0.0, _RATIO, _log_ratio(TILTED, STRAIGHT, order))
-    yield Target("f4_shift", "C10c", AT_MOST, 0.0, _SHIFT, _shift(TILTED, STRAIGHT, 4))
+        softer = partial(_log_ratio, one=CRITICAL, other=SOFT, order=order)
+        yield Target(f"Y{order}_critical", critical, AT_LEAST, 0.0, _RATIO, softer)
+        straighter = partial(_log_ratio, **tilt, order=order)
+        yield Target(f"Y{order}_tilted", tilted, AT_MOST, 0.0, _RATIO, straighter)
+    yield Target("f4_shift", "C10c", AT_MOST, 0.0, _SHIFT, partial(_shift, **tilt, order=4))
     shift = TILTED_SPEED - STRAIGHT_SPEED
-    yield Target("f6_shift", "C10d", EQUAL, shift, _SHIFT, _shift(TILTED, STRAIGHT, 6))
+    yield Target("f6_shift", "C10d", EQUAL, shift, _SHIFT, partial(_shift, **tilt, order=6))
 
 
 def _moduli() -> Iterator[Target]:
-    rise, step = _over_hardening(lambda f: f[-1] - f[0]), _over_hardening(lambda f: np.diff(f).min())
+    rise = partial(_over_hardening, reduce=lambda f: f[-1] - f[0])
     yield Target("f4_rise", "C7a", AT_LEAST, 0.0, _SHIFT, rise)
+    step = partial(_over_hardening, reduce=lambda f: np.diff(f).min())
     yield Target("f4_step", "C7b", AT_LEAST, 0.0, _SHIFT, step)
-    relative = _over_modulus("Y4", lambda height: np.ptp(height) / height.mean())
-    yield Target("Y4_spread", "C8a", AT_MOST, HARDLY["amplitude"], _RATIO, relative)
-    yield Target("f4_spread", "C8b", AT_MOST, HARDLY["f_peak"], _SHIFT, _over_modulus("f4", np.ptp))
+    spread = partial(_over_modulus, column="Y4", reduce=lambda height: np.ptp(height) / height.mean())
+    yield Target("Y4_spread", "C8a", AT_MOST, HARDLY["amplitude"], _RATIO, spread)
+    spread = partial(_over_modulus, column="f4", reduce=np.ptp)
+    yield Target("f4_spread", "C8b", AT_MOST, HARDLY["f_peak"], _SHIFT, spread)
 
 
 def _divergence() -> Iterator[Target]:
     own = ((TILTED, TILTED_SPEED), (STRAIGHT, STRAIGHT_SPEED), (TILTED, TILTED), (STRAIGHT, STRAIGHT))
     others = ((STRAIGHT, TILTED_SPEED), (TILTED, STRAIGHT_SPEED), (STRAIGHT, TILTED), (TILTED, STRAIGHT))
+    six = partial(_dominance_at, harmonic=6)
     for name, letters, runs, relation, error, measure_at in (
         ("growth", "abgh", own, AT_LEAST, _GROWTH, _growth_at),
         ("growth", "cdij", others, AT_MOST, _GROWTH, _growth_at),
-        ("six", "efkl", own, AT_LEAST, _SHARE, _six_at),
+        ("six", "efkl", own, AT_LEAST, _SHARE, six),
     ):
         for letter, (case, speed) in zip(letters, runs, strict=True):
-            part = f"C11{letter}"
-            yield Target(f"{name}_{part}", part, relation, 0.0, error, measure_at(case, speed))
+            part, measure_run = f"C11{letter}", partial(measure_at, case=case, speed=speed)
+            yield Target(f"{name}_{part}", part, relation, 0.0, error, measure_run)
 
 
 TARGETS = (*_worn_lobes(), *_speeds(), *_heights(), *_moduli(), *_divergence())
