@@ -1,66 +1,35 @@
-# How much the width of the coating's bars decides at the peaks of some coatings. Not part of `all`.
+# How much decides at the peaks of some coatings: the width of the coating's bars, the number of interface nodes; on
+# the rigid casing the modes, the step and the law of impact. How accurate runs are, and what they cost. Not in `all`.
 
+# The peaks again: with what, and minutes to ask a cluster for
+REPEATED = {
+    "finer_bars": ("extras.verification.refinement", 5),
+    "more_nodes": ("extras.verification.refinement", 10),
+    "rigid_convergence": ("extras.verification.rigid_casing", 15),
+}
+for repeated, (repetition, first_minutes) in REPEATED.items():
 
-rule finer_bars:
-    input:
-        blade=rules.blade.output.reduced_model,
-        kernel=rules.compile_kernel.output[0],
-        peaks=rules.peaks.output[0],
-        analysing=files_behind("extras.verification.refinement"),
-    output:
-        **described(table=f"{TABLES}/finer_bars.csv"),
-    log:
-        f"{RESULTS}/logs/finer_bars.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/finer_bars.tsv"
-    group:
-        "drawing"
-    resources:
-        runtime=minutes(5),
-    script:
-        "scripts/finer_bars.py"
-
-
-# How much the number of interface nodes decides at the same peaks
-rule more_nodes:
-    input:
-        kernel=rules.compile_kernel.output[0],
-        peaks=rules.peaks.output[0],
-        analysing=files_behind("extras.verification.refinement"),
-    output:
-        **described(table=f"{TABLES}/more_nodes.csv"),
-    log:
-        f"{RESULTS}/logs/more_nodes.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/more_nodes.tsv"
-    group:
-        "drawing"
-    resources:
-        mem_mb=memory_mb,
-        runtime=minutes(10),
-    script:
-        "scripts/more_nodes.py"
-
-
-# What the vibration on the rigid casing converges to, whatever the modes, the step and the law of impact
-rule rigid_convergence:
-    input:
-        blade=rules.blade.output.reduced_model,
-        kernel=rules.compile_kernel.output[0],
-        peaks=rules.peaks.output[0],
-        analysing=files_behind("extras.verification.rigid_casing"),
-    output:
-        **described(table=f"{TABLES}/rigid_convergence.csv"),
-    log:
-        f"{RESULTS}/logs/rigid_convergence.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rigid_convergence.tsv"
-    group:
-        "drawing"
-    resources:
-        runtime=minutes(15),
-    script:
-        "scripts/rigid_convergence.py"
+    rule:
+        name:
+            repeated
+        input:
+            blade=rules.blade.output.reduced_model,
+            kernel=rules.compile_kernel.output[0],
+            peaks=rules.peaks.output[0],
+            analysing=files_behind(repetition),
+        output:
+            **described(table=f"{TABLES}/{repeated}.csv"),
+        log:
+            f"{RESULTS}/logs/{repeated}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/{repeated}.tsv"
+        group:
+            "drawing"
+        resources:
+            mem_mb=memory_mb,
+            runtime=minutes(first_minutes),
+        script:
+            "scripts/repeated_peaks.py"
 
 
 # How accurate the study's runs are: a table of what `bladerub verify` measures
