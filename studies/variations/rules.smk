@@ -124,7 +124,6 @@ rule variation:
 rule calibration:
     input:
         verdicts=lambda wildcards: of_jobs("calibration", "verdicts.csv"),
-        summing=files_behind("extras.variations.calibration"),
         drawing=files_behind("extras.variations.verdicts", "plots.style"),
     output:
         **described(

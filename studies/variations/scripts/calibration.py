@@ -6,9 +6,14 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-from bladerub.extras.variations.calibration import collect, counts, verdicts
-from bladerub.extras.variations.verdicts import verdicts as draw
+import pandas as pd
+
+from bladerub.extras.variations.job import VERDICTS
+from bladerub.extras.variations.verdicts import counts, side_by_side, verdicts
+from bladerub.io import tables
 from bladerub.workflow import outputs
 
-table = collect({Path(path).parent.name: path for path in snakemake.input.verdicts})
-outputs.save(snakemake, draw(verdicts(table, by="set")), table=table, counts=counts(table))
+paths = [Path(path) for path in snakemake.input.verdicts]
+of_sets = [tables.read(path, VERDICTS).assign(set=path.parent.name) for path in paths]
+table = pd.concat(of_sets, ignore_index=True)
+outputs.save(snakemake, verdicts(side_by_side(table, by="set")), table=table, counts=counts(table))

@@ -5,11 +5,10 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.variations import margins
-from bladerub.extras.variations.calibration import verdicts
-from bladerub.extras.variations.verdicts import verdicts as draw
+from bladerub.extras.variations.verdicts import side_by_side, verdicts
 from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
 config, inputs = typed(snakemake.config), snakemake.input
 table = margins.table(config, inputs.maps, inputs.rom_accuracy)
-outputs.save(snakemake, draw(verdicts(table, by="variation")), table=table)
+outputs.save(snakemake, verdicts(side_by_side(table, by="variation")), table=table)

@@ -1,10 +1,11 @@
-"""Verdicts on the claims in several studies: a mark for each claim in each study."""
+"""Verdicts on the claims in several studies: side by side, counted, and drawn as a mark for each."""
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from bladerub.plots import style
+from bladerub.study.findings.claim import SCORE
 
 MARKS = {
     "yes": {"marker": "o", "facecolor": style.DARK, "edgecolor": style.DARK},
@@ -12,6 +13,35 @@ MARKS = {
     "no": {"marker": "x", "facecolor": style.GREY},
 }
 """Full, light and crossed, so that grey print keeps them apart."""
+
+
+def side_by_side(table: pd.DataFrame, by: str) -> pd.DataFrame:
+    """Return ``holds`` of each claim (rows) by the values of the column `by` (columns), both in their order.
+
+    `table` has the findings of several studies, or of several ways to judge one, which `by` distinguishes.
+    """
+    wide = table.pivot_table(index="id", columns=by, values="holds", aggfunc="first")
+    return wide.loc[list(dict.fromkeys(table["id"])), list(dict.fromkeys(table[by]))]
+
+
+def counts(table: pd.DataFrame) -> pd.DataFrame:
+    """Count the verdicts of each ``set`` in a `table` of findings, and name those that differ from the first.
+
+    A row a set: ``yes``, ``partly``, ``no``, and the claims that are ``better`` or ``worse``. A verdict that
+    the one set has and the other does not is left out.
+    """
+    holds = side_by_side(table, by="set")
+    score = holds.apply(lambda of_set: of_set.map(SCORE))
+    rows = []
+    for name in holds:
+        change = score[name] - score.iloc[:, 0]
+        number = holds[name].value_counts()
+        rows.append(
+            {"set": name}
+            | {word: number.get(word, 0) for word in SCORE}
+            | {"better": " ".join(change[change > 0].index), "worse": " ".join(change[change < 0].index)}
+        )
+    return pd.DataFrame(rows)
 
 
 @style.styled

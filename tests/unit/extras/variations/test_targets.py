@@ -8,8 +8,8 @@ import pytest
 from study_fixtures import changed
 
 from bladerub.extras.variations import margins
-from bladerub.extras.variations.calibration import verdicts
 from bladerub.extras.variations.targets import measure
+from bladerub.extras.variations.verdicts import side_by_side
 from bladerub.study import divergence, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, speeds
@@ -127,7 +127,7 @@ def test_a_table_has_every_claim_in_every_variation(study, maps, tmp_path):
     accuracy = [(f, mode, 1e-4) for f in (0.0, 0.4) for mode in range(1, 11)]
     pd.DataFrame(accuracy, columns=["f_omega", "mode", "relative_error"]).to_csv(tmp_path / "a.csv")
     table = margins.table(study, sorted(tmp_path.glob("*.h5")), tmp_path / "a.csv")
-    holds = verdicts(table, by="variation")
+    holds = side_by_side(table, by="variation")
     assert list(holds.columns) == list(margins.variations(study, maps))
     # the narrow peak at 0.33 is on no speed of the thinned grid
     assert holds.loc["C6a", margins.STUDY] == "no"
