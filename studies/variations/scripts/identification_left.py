@@ -4,22 +4,28 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
+import pandas as pd
+
 from bladerub.extras.variations import identification as summary
 from bladerub.extras.variations import waves
 from bladerub.extras.variations.emulator import emulators
+from bladerub.extras.variations.implausibility import wide
+from bladerub.extras.variations.job import QUANTITIES
+from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import read
 from bladerub.workflow import outputs
 
 plan, wave = read("identification", snakemake.params.plan), int(snakemake.wildcards.wave)
-measured = summary.measured(snakemake.input.quantities)
+measured = wide(read_jobs(snakemake.input.quantities, QUANTITIES))
 positions = waves.read(snakemake.input.sets).loc[measured.index].to_numpy()
 emulated = emulators(positions, measured)
 remaining = waves.remaining(plan, emulated)
 drawn = waves.draw(plan, wave, remaining, emulated, positions)
 first = plan.first(wave + 1)
+left = pd.DataFrame([(wave, len(measured), remaining.given_up, remaining.share)], columns=summary.LEFT)
 outputs.save(
     snakemake,
-    left=summary.left_after(wave, len(measured), remaining),
+    left=left,
     emulators=summary.emulated(wave, emulated, remaining, positions, measured),
     ranges=summary.ranges(plan, remaining),
     next_sets=waves.as_table(plan, first, drawn),

@@ -78,7 +78,7 @@ def counts(candidates: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
 
     `candidates` is from `as_table`, `verdicts` have `COLUMNS`.
     """
-    matched = {target.claim for target in TARGETS}
+    matched = {target.claim for target in TARGETS.values()}
     yes = verdicts.holds == YES
     counted = verdicts[_INDEX[:2]].assign(
         matched_yes=yes & verdicts.id.isin(matched),

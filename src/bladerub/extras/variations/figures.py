@@ -102,16 +102,15 @@ def _draw_targets(axes: Axes, plan: Plan, measured: pd.DataFrame) -> None:
     waves = np.repeat(np.arange(len(plan.waves)), [plan.size(wave + 1) for wave in range(len(plan.waves))])
     colours = colormaps["Blues"](np.linspace(0.35, 0.95, len(plan.waves)))[waves[measured.index]]
     spread = np.random.default_rng(0).uniform(-0.3, 0.3, len(measured))
-    targets = {target.name: target for target in TARGETS}
     for row, (name, values) in enumerate(measured.items()):
-        target = targets[name]
+        target = TARGETS[name]
         distance = ((values - target.value) / target.error).clip(-_BEYOND, _BEYOND)
         low = -_BEYOND if target.relation == AT_MOST else -CUTOFF
         high = _BEYOND if target.relation == AT_LEAST else CUTOFF
         axes.barh(row, high - low, left=low, height=0.86, color=_PLAUSIBLE, zorder=0)
         axes.scatter(distance, row + spread, s=1.8, color=colours)
         axes.plot(distance.iloc[0], row, "D", color=style.ORANGE, markersize=4)
-    labels = [f"{targets[name].claim}  {name.replace('_', ' ')}" for name in measured]
+    labels = [f"{TARGETS[name].claim}  {name.replace('_', ' ')}" for name in measured]
     axes.set_yticks(range(len(labels)), labels, fontsize=7)
     axes.set_ylim(len(labels) - 0.4, -0.6)
     axes.set_xlim(-_BEYOND - 0.3, _BEYOND + 0.3)

@@ -1,16 +1,13 @@
 """Tables of an identification: sets, what the waves leave, targets, claims that exclude each other."""
 
 import itertools
-from collections.abc import Iterable, Mapping
-from pathlib import Path
+from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
 
 from bladerub.extras.variations.emulator import Emulator, Predicted, compared, held_out
-from bladerub.extras.variations.implausibility import CUTOFF, of_simulated, wide
-from bladerub.extras.variations.job import QUANTITIES
-from bladerub.extras.variations.job import read as read_jobs
+from bladerub.extras.variations.implausibility import CUTOFF, of_simulated
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
 from bladerub.extras.variations.waves import Remaining, as_table, with_values
@@ -30,20 +27,10 @@ _RARE = 0.05  # a claim that holds in fewer sets says nothing about which others
 _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusion
 
 
-def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Read the targets of all jobs: a row for each set, a column for each target, in their order."""
-    return wide(read_jobs(paths, QUANTITIES))
-
-
 def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame:
     """List every simulated set: a row for each factor, with its position and value, and the set's misfit."""
     table = with_values(plan, as_table(plan, 0, positions.to_numpy()))
     return table.assign(misfit=table.set.map(misfit))
-
-
-def left_after(wave: int, n_sets: int, remainder: Remaining) -> pd.DataFrame:
-    """Say what is left after a wave: a row with `LEFT`."""
-    return pd.DataFrame([(wave, n_sets, remainder.given_up, remainder.share)], columns=LEFT)
 
 
 def emulated(
@@ -78,11 +65,8 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
     `measured` is of all sets, the study's own the first; `predictions` are of sets that were simulated later.
     """
     implausible, rows = of_simulated(measured), []
-    for target in TARGETS:
-        if target.name not in measured:
-            continue
-        values = measured[target.name]
-        of_target = predictions[predictions.target == target.name].set_index("set")
+    for name, values in measured.items():
+        target, of_target = TARGETS[name], predictions[predictions.target == name].set_index("set")
         later = of_target.join(values.rename("simulated"), how="inner").dropna()
         error = compared(
             later.simulated.to_numpy(),
@@ -90,7 +74,7 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
         )
         rows.append(
             {
-                "target": target.name,
+                "target": name,
                 "id": target.claim,
                 "relation": target.relation,
                 "paper_value": target.value,
@@ -98,7 +82,7 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
                 "own_value": values.iloc[0],
                 "lowest": values.min(),
                 "highest": values.max(),
-                "plausible": float((implausible[target.name] <= CUTOFF).mean()),
+                "plausible": float((implausible[name] <= CUTOFF).mean()),
                 "explained": error.explained,
                 "within_two": error.within_two,
             }

@@ -23,20 +23,18 @@ CUTOFF = 3.0
 def wide(quantities: pd.DataFrame) -> pd.DataFrame:
     """Return the measured targets (columns, in their order) of each set (rows)."""
     table = quantities.pivot(index="set", columns="target", values="value")
-    return table[[target.name for target in TARGETS if target.name in table]]
+    return table[[name for name in TARGETS if name in table]]
 
 
 def of_simulated(measured: pd.DataFrame) -> pd.DataFrame:
     """Return the implausibility of simulated sets, of the shape of `measured` from `wide`; NaN as there."""
-    targets = {target.name: target for target in TARGETS}
-    return measured.apply(lambda values: targets[values.name].excess(values) / targets[values.name].error)
+    return measured.apply(lambda values: TARGETS[values.name].excess(values) / TARGETS[values.name].error)
 
 
 def predicted(emulated: Mapping[str, "Emulator"], positions: np.ndarray) -> pd.DataFrame:
     """Predict the implausibility of each emulated target (columns) at `positions` (m, d)."""
-    targets = {target.name: target for target in TARGETS}
     return pd.DataFrame(
-        {name: _of_prediction(targets[name], emulator, positions) for name, emulator in emulated.items()},
+        {name: _of_prediction(TARGETS[name], emulator, positions) for name, emulator in emulated.items()},
         index=range(len(positions)),  # also where nothing is emulated
     )
 

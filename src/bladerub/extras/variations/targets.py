@@ -72,12 +72,12 @@ class Target:
 def measure(evidence: Evidence, claims: Iterable[str]) -> dict[str, float]:
     """Measure the targets of some claims, ``C2`` standing for all its parts; NaN where a study lacks it."""
     selection, values = set(claims), {}
-    for target in TARGETS:
+    for name, target in TARGETS.items():
         if claim_of(target.claim) in selection:
             try:
-                values[target.name] = float(target.measure(evidence))
+                values[name] = float(target.measure(evidence))
             except (NotMeasurable, ValueError):  # as of `amplitude_in_window`
-                values[target.name] = float("nan")
+                values[name] = float("nan")
     return values
 
 
@@ -290,5 +290,7 @@ def _divergence() -> Iterator[Target]:
             yield Target(f"{name}_{part}", part, relation, 0.0, error, measure_run)
 
 
-TARGETS = (*_worn_lobes(), *_speeds(), *_heights(), *_moduli(), *_divergence())
-"""What is matched, in the order of the tables."""
+TARGETS = {
+    target.name: target for target in (*_worn_lobes(), *_speeds(), *_heights(), *_moduli(), *_divergence())
+}
+"""What is matched by name, in the order of the tables."""

@@ -123,14 +123,14 @@ def test_a_target_is_missed_on_the_sides_of_its_relation(relation, expected):
 def test_the_deviation_of_a_prediction_makes_a_set_more_plausible_and_quantities_become_a_row_a_set():
     rng = np.random.default_rng(0)
     positions = rng.random((40, 2))
-    (target,) = [target for target in TARGETS if target.name == "f4_soft"]
+    target = TARGETS["f4_soft"]
     far = target.value + 10 * target.error
     sure = implausibility.predicted({"f4_soft": Emulator(positions, np.full(40, far))}, positions[:3])
     assert sure.f4_soft.to_numpy() == pytest.approx(np.full(3, 10.0))
     scattered = far + 5 * target.error * rng.standard_normal(40)
     unsure = implausibility.predicted({"f4_soft": Emulator(positions, scattered)}, positions)
     assert unsure.f4_soft.median() < 4
-    names = [TARGETS[3].name, TARGETS[1].name]
+    names = list(TARGETS)[3:0:-2]
     long = pd.DataFrame({"set": [7, 7, 2, 2], "target": names * 2, "value": [1.0, 2.0, 3.0, 4.0]})
     table = implausibility.wide(long)
     assert list(table.columns) == names[::-1]
@@ -138,7 +138,6 @@ def test_the_deviation_of_a_prediction_makes_a_set_more_plausible_and_quantities
     assert table.loc[7, names[0]] == 1.0
 
 
-TARGET = {target.name: target for target in TARGETS}
 OWN_STUDY = changed(CONFIG, contact={"modulus_unit": 6e8}, blade={"hub_radius": 0.45})
 EMPTY = Located.of({}, UNKNOWN)
 
@@ -161,7 +160,7 @@ def positions(plan):
 def measured(positions):
     """Targets that the sets near (0.3, 0.8) meet."""
     far = positions - np.array([0.3, 0.8])
-    f4, f6 = TARGET["f4_soft"], TARGET["f6_soft"]
+    f4, f6 = TARGETS["f4_soft"], TARGETS["f6_soft"]
     return pd.DataFrame(
         {"f4_soft": f4.value + 40 * f4.error * far[:, 0], "f6_soft": f6.value + 40 * f6.error * far[:, 1]},
         index=pd.RangeIndex(len(positions), name="set"),
@@ -197,7 +196,7 @@ def test_what_is_left_lies_where_the_targets_are_met_and_the_next_sets_there_far
     apart = np.linalg.norm(first[:, None] - first, axis=2)[~np.eye(8, dtype=bool)]
     assert apart.min() > 0.02
     assert np.array_equal(drawn, waves.draw(plan, 1, left, emulators, positions))
-    nowhere = measured.assign(f6_straight=TARGET["f6_straight"].value + 1.0)
+    nowhere = measured.assign(f6_straight=TARGETS["f6_straight"].value + 1.0)
     left = waves.remaining(plan, emulated(positions, nowhere))
     assert left.given_up == 1
     assert left.share >= plan.remaining
