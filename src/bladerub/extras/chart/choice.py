@@ -37,12 +37,10 @@ def pareto(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
     Their rows of the chart, by ascending displacement, and ``safe``: whether all limits are kept.
     """
     judged = chart.assign(safe=~broken_limits(chart, limits).any(axis=1))
-    fronts = []
-    for _, rows in judged.groupby("theta"):
-        ordered = rows.sort_values(["peak", "worn_volume"])
-        best_before = np.minimum.accumulate(np.append(np.inf, ordered.worn_volume.to_numpy()[:-1]))
-        fronts.append(ordered[ordered.worn_volume.to_numpy() < best_before])
-    return pd.concat(fronts, ignore_index=True)
+    ordered = judged.sort_values(["theta", "peak", "worn_volume"], ignore_index=True)
+    lowest = ordered.groupby("theta").worn_volume.cummin()
+    lowest_before = lowest.groupby(ordered.theta).shift(fill_value=np.inf)
+    return ordered[ordered.worn_volume < lowest_before].reset_index(drop=True)
 
 
 def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:

@@ -16,7 +16,6 @@ of two draws, and lies within the band.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import fields
 from itertools import islice
 from typing import Any, NamedTuple
 
@@ -201,12 +200,7 @@ def of_findings(
 
 def _drawn_runs(table: pd.DataFrame, members: pd.DataFrame) -> pd.DataFrame:
     """Return the `table` of divergence with the rows of `members` in place of those of the same runs."""
-    keys = _keys(table)
+    keys = ["casing", "E", "K", "theta", "law", "f_omega"]
     drawn, rows = table.set_index(keys), members.set_index(keys)
     drawn.loc[rows.index] = rows
     return drawn.reset_index()
-
-
-def _keys(table: pd.DataFrame) -> list[str]:
-    """Return the columns of the table of divergence that tell its runs apart."""
-    return [name for name in (*(field.name for field in fields(CoatingCase)), "f_omega") if name in table]

@@ -206,16 +206,10 @@ def read_ensemble(path: str | Path, run: StudyRun) -> Ensemble:
         raise DamagedFile(f"{path}: no ensemble, {_START} of its runs is missing")
     start = np.array([stored[_prefix(number)].attributes.pop(_START) for number in numbers])
     ensemble = Ensemble(run, start, tuple(run_of(stored, _prefix(number)) for number in numbers))
-    first_run = ensemble.runs[0]
-    if (first_run.case, first_run.f_omega, first_run.revolutions) != (
-        run.case,
-        run.f_omega,
-        run.spec.revolutions,
-    ):
-        content = (
-            f"{first_run.case.name}/{speed_name(first_run.f_omega)} of {first_run.revolutions} revolutions"
-        )
-        request = f"{run.name} of {run.spec.revolutions} revolutions"
+    first, revolutions = ensemble.runs[0], run.spec.revolutions
+    if (first.case, first.f_omega, first.revolutions) != (run.case, run.f_omega, revolutions):
+        content = f"{first.case.name}/{speed_name(first.f_omega)} of {first.revolutions} revolutions"
+        request = f"{run.name} of {revolutions} revolutions"
         raise InputError("run", request, f"must be that of {path}, {content}")
     return ensemble
 

@@ -43,6 +43,7 @@ _DATASETS = {
     "spectrum_order": (("spectrum_order",), "1", "engine order"),
     "spectrum_amplitude": (("window", "spectrum_order"), "m", f"amplitude of {_RADIAL}"),
 }
+_DESCRIBED = ("direction", "rate", "status", "energy_residual")  # attributes of the file
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,7 @@ def read(path: str | Path) -> SpeedSweep:
         return SpeedSweep(
             case=CoatingCase.described(about),
             max_wear=float(data["wear"].max()),
-            **{name: about[name] for name in ("direction", "rate", "status", "energy_residual")},
+            **{name: about[name] for name in _DESCRIBED},
             **{name: data[name] for name in arrays},
         )
     except KeyError as error:
@@ -155,18 +156,14 @@ def table(
         swept_peak = maximum(sweep, amplitude_in_window(sweep, order, settings, window))
         rows.append(
             asdict(sweep.case)
+            | {name: getattr(sweep, name) for name in (*_DESCRIBED, "max_wear")}
             | {
-                "direction": sweep.direction,
-                "rate": sweep.rate,
                 "order": order,
                 "f_peak": swept_peak.f_omega,
                 "amplitude": swept_peak.amplitude,
                 "f_peak_constant": at_constant.f_omega,
                 "amplitude_constant": at_constant.amplitude,
-                "status": sweep.status,
                 "f_end": sweep.speed[np.isfinite(sweep.revolution_amplitude)][-1],
-                "max_wear": sweep.max_wear,
-                "energy_residual": sweep.energy_residual,
             }
         )
     table = pd.DataFrame(rows)

@@ -51,12 +51,12 @@ def emulated(
 
 def predictions(emulators: Mapping[str, Emulator], first: int, drawn: np.ndarray) -> pd.DataFrame:
     """Predict the targets of the sets `drawn` (n, d), numbered from `first`, with `PREDICTIONS`."""
-    tables = []
-    for name, emulator in emulators.items():
-        mean, deviation = emulator.predict(drawn)
-        numbers = np.arange(first, first + len(drawn))
-        tables.append(pd.DataFrame(dict(zip(PREDICTIONS, (numbers, name, mean, deviation), strict=True))))
-    return pd.concat(tables or [pd.DataFrame(columns=PREDICTIONS)], ignore_index=True)
+    rows = [
+        (number, name, mean, deviation)
+        for name, emulator in emulators.items()
+        for number, (mean, deviation) in enumerate(zip(*emulator.predict(drawn), strict=True), first)
+    ]
+    return pd.DataFrame(rows, columns=PREDICTIONS)
 
 
 def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:

@@ -111,14 +111,9 @@ class Plan:
 
     def listed(self, study: Config) -> np.ndarray:
         """Return the positions of the study's own values, then of the listed sets, (1 + n_sets, d)."""
-        reference = [factor.position(factor.own(study)) for factor in self.factors]
-        rows = [reference]
-        for values in self.sets.values():
-            pairs = zip(self.factors, reference, strict=True)
-            rows.append(
-                [f.position(values[f.name]) if f.name in values else position for f, position in pairs]
-            )
-        return np.array(rows)
+        own = {factor.name: factor.own(study) for factor in self.factors}
+        sets = [own, *(own | values for values in self.sets.values())]
+        return np.array([[f.position(values[f.name]) for f in self.factors] for values in sets])
 
 
 def read(kind: str, path: str | Path, key: str | None = None) -> Plan:
