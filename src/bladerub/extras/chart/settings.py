@@ -4,17 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.settings.fields import (
-    ASCENDING,
-    Metre,
-    Modulus,
-    Number,
-    Omitted,
-    Pascal,
-    Section,
-    Speed,
-    Unit,
-)
+from bladerub.settings.fields import ASCENDING, Metre, Modulus, Number, Omitted, Pascal, Section, Speed, Unit
 from bladerub.settings.quantities import CasingName, Theta, YoungModulus
 
 # 24 each, even on a logarithmic scale but for the paper's 9 E and 6 K, which stand in for those next to them

@@ -4,17 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from bladerub.settings.fields import (
-    ASCENDING,
-    UNIQUE,
-    ConfigFile,
-    Form,
-    Name,
-    Number,
-    Omitted,
-    Section,
-    Seed,
-)
+from bladerub.settings.fields import ASCENDING, UNIQUE, ConfigFile, Form, Name, Number, Omitted, Section, Seed
 
 CALIBRATION = Annotated[
     ConfigFile,
