@@ -18,12 +18,6 @@ _OF_CHART = [
     *COATING,
     *("safe", "broken", "peak", "f_at_peak", "worn_volume", "deepest_wear", "divergent_share"),
 ]
-CHOICE = [
-    *_OF_CHART,
-    *(f"{name}_{side}" for name in ("E", "K") for side in ("below", "above")),
-    *("neighbours", "safe_neighbours", "lowest_neighbour", "highest_neighbour", "safe_coatings", "coatings"),
-]
-"""Columns of ``chart_choice.csv``."""
 
 
 def broken_limits(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
@@ -46,7 +40,7 @@ def pareto(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
 def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
     """Recommend for each θ the coating with the lowest displacement of those that break the fewest limits.
 
-    Columns of `CHOICE`: how sure that is shows in the coatings next to it on the chart, eight or fewer. If
+    How sure that is shows in the coatings next to it on the chart, eight or fewer. If
     most of them are not safe, or their displacements spread far, another sample of the coating may not be as
     good; what lies between the moduli below and above (NaN: the end of the chart) was not computed.
     """
@@ -70,7 +64,7 @@ def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
                 "coatings": len(coatings),
             }
         )
-    return pd.DataFrame(rows, columns=CHOICE)
+    return pd.DataFrame(rows)
 
 
 def _next_to(moduli: pd.Series, modulus: float) -> dict[str, float]:

@@ -18,14 +18,6 @@ COATING = ["casing", "E", "K", "theta"]
 """Columns that identify the coating of a row."""
 
 
-def columns(orders: Iterable[int]) -> list[str]:
-    """Return the columns of ``chart.csv`` for the engine orders of its casing."""
-    return [
-        *(*COATING, *(f"{name}{order}" for order in orders for name in "Yf")),
-        *("peak", "f_at_peak", "worn_volume", "deepest_wear", "divergent_share", "unbounded_share", "runs"),
-    ]
-
-
 def read_points(manifests: Iterable[str | Path]) -> Iterator[ChartPoint]:
     """Read the points that the manifests of the columns list.
 
@@ -50,11 +42,11 @@ def table(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
         measures, row = point.measures, {name: getattr(point.case, name) for name in COATING}
         for order in orders:
             order_peak = peak(point, order, config.analysis.peaks)
-            row |= {f"f{order}": order_peak.f_omega, f"Y{order}": order_peak.amplitude}
+            row |= {f"Y{order}": order_peak.amplitude, f"f{order}": order_peak.f_omega}
         highest = int(np.nanargmax(measures["peak"]))
         row |= {"peak": measures["peak"][highest], "f_at_peak": point.f_omega[highest]}
         row |= {name: np.nanmax(measures[name]) for name in ("worn_volume", "deepest_wear")}
         for name in ("divergent", "unbounded"):
             row[f"{name}_share"] = np.mean(measures[name][point.uniform])
         rows.append(row | {"runs": int(point.known.sum())})
-    return pd.DataFrame(rows, columns=columns(orders))
+    return pd.DataFrame(rows)

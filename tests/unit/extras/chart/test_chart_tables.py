@@ -117,7 +117,7 @@ def test_the_recommended_coating_says_how_good_those_next_to_it_are_and_nothing_
     assert (soft["lowest_neighbour"], soft["highest_neighbour"]) == pytest.approx((1e-3, 2e-3))
     (none,) = choice.recommended(rows, Limits(amplitude=1e-5, wear=1e-3)).to_dict("records")
     assert (none["safe"], none["broken"], none["safe_coatings"]) == (False, 1, 0)
-    assert {entry(name) for name in choice.CHOICE} <= described_columns(*plugins.files("columns.csv")).keys()
+    assert {entry(name) for name in none} <= described_columns(*plugins.files("columns.csv")).keys()
     chart = pd.DataFrame({"theta": [0.0, 0.0, 0.0, 0.0, 0.15], "peak": [1e-3, 2e-3, 3e-3, 2e-3, 9e-3]})
     chart = chart.assign(worn_volume=[5.0, 3.0, 4.0, 3.5, 9.0], divergent_share=0.0)
     chart["deepest_wear"] = [1e-4, 9e-4, 1e-4, 1e-4, 1e-4]
