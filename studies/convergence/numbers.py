@@ -92,21 +92,16 @@ def _elements(bars):
     soft = greatest_changes(
         bars[(bars["elements"] == 8000) & (bars["status"] == "completed") & (bars["E"] < 20)]
     )
-    return {
-        "finer_elements": refinement(bars, "elements"),
-        "Y_by_elements": percent(soft["Y"], 1),
-        "volume_by_elements": percent(soft["volume"], 1),
-        "wear_by_elements": percent(soft["wear"], 1),
-    }
+    changes = {f"{name}_by_elements": percent(change, 1) for name, change in soft.items()}
+    return {"finer_elements": refinement(bars, "elements")} | changes
 
 
 def _nodes(nodes):
     soft = greatest_changes(nodes[(nodes["interface_nodes"] == 24) & (nodes["E"] < 20)])
+    changes = {f"{name}_by_nodes": percent(change, 1) for name, change in soft.items()}
     return {
         "more_nodes": refinement(nodes, "interface_nodes"),
-        "Y_by_nodes": percent(soft["Y"], 1),
-        "volume_by_nodes": percent(soft["volume"], 1),
-        "wear_by_nodes": percent(soft["wear"], 1),
+        **changes,
         "cost_16": cost(nodes, 16),
         "cost_24": cost(nodes, 24),
     }

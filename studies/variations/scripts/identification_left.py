@@ -26,7 +26,7 @@ left = pd.DataFrame([(wave, len(measured), remaining.given_up, remaining.share)]
 outputs.save(
     snakemake,
     left=left,
-    emulators=summary.emulated(wave, emulated, remaining, positions, measured),
+    emulators=summary.emulated(wave, emulated, remaining),
     ranges=summary.ranges(plan, remaining),
     next_sets=waves.as_table(plan, first, drawn),
     predictions=summary.predictions(emulated, first, drawn),

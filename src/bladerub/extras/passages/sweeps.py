@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.extras.passages.speed_sweep import SweepResult, simulate_sweep
 from bladerub.extras.passages.sweep_grid import sweep_spec
@@ -17,7 +16,7 @@ from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
-from bladerub.study.maps import CoatingMap
+from bladerub.study.maps import CoatingMap, first_frequency
 from bladerub.study.orders import peak_orders
 from bladerub.study.peaks import amplitude_in_window, maximum, peak, speed_window
 from bladerub.study.spectra import order_spectrum
@@ -85,12 +84,11 @@ def make(
             f"needs {window}; must be slower"
         )
     f_omega, order, amplitude = _spectra(result, window, analysis.max_order)
-    C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in f_omega]) / blade.f1_hz
     values = vars(result) | {
         "wear": result.wear.astype(np.float32),
         "speed": result.f_omega,
         "f_omega": f_omega,
-        "C1": C1,
+        "C1": first_frequency(blade, f_omega),
         "spectrum_order": order,
         "spectrum_amplitude": amplitude.astype(np.float32),
     }

@@ -51,6 +51,7 @@ class Emulator:
         values: np.ndarray,
         covariance: openturns.CovarianceModel | None = None,
     ):
+        self.positions, self.values = positions, values
         self._mean, self._scale = float(values.mean()), float(values.std())
         self.covariance = covariance
         self._regression = None
@@ -84,14 +85,13 @@ def emulators(positions: np.ndarray, measured: pd.DataFrame) -> dict[str, Emulat
     return fits
 
 
-def held_out(emulator: Emulator, positions: np.ndarray, values: np.ndarray) -> HeldOut:
-    """Predict each of `FOLDS` parts of the sets from the others, with the covariance of `emulator`."""
+def held_out(emulator: Emulator) -> HeldOut:
+    """Predict each of `FOLDS` parts of the sets of `emulator` from the others, with its covariance."""
+    positions, values = emulator.positions, emulator.values
     mean, deviation = np.empty(values.size), np.empty(values.size)
     for inside, outside in folds(values.size):
-        prediction = Emulator(positions[inside], values[inside], emulator.covariance).predict(
-            positions[outside]
-        )
-        mean[outside], deviation[outside] = prediction
+        others = Emulator(positions[inside], values[inside], emulator.covariance)
+        mean[outside], deviation[outside] = others.predict(positions[outside])
     return compared(values, Predicted(mean, deviation))
 
 

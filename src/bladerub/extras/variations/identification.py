@@ -33,19 +33,11 @@ def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame
     return table.assign(misfit=table.set.map(misfit))
 
 
-def emulated(
-    wave: int,
-    emulators: Mapping[str, Emulator],
-    remainder: Remaining,
-    positions: np.ndarray,
-    measured: pd.DataFrame,
-) -> pd.DataFrame:
+def emulated(wave: int, emulators: Mapping[str, Emulator], remainder: Remaining) -> pd.DataFrame:
     """Say how well each target is predicted: a row each, with `EMULATORS`."""
-    rows = []
-    for name, emulator in emulators.items():
-        mask = measured[name].notna().to_numpy()
-        error = held_out(emulator, positions[mask], measured[name].to_numpy()[mask])
-        rows.append((wave, name, *error, remainder.plausible[name]))
+    rows = [
+        (wave, name, *held_out(emulator), remainder.plausible[name]) for name, emulator in emulators.items()
+    ]
     return pd.DataFrame(rows, columns=EMULATORS)
 
 

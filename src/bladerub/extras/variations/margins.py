@@ -112,8 +112,7 @@ def table(config: Config, map_paths: Iterable[str | Path], rom_accuracy_path: st
     judged = []
     for name, (settings, maps) in variations(config, map(read_map, map_paths)).items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out
-        peaks = peak_table.table(settings, maps)
-        growing = divergence.table(settings, maps)
-        tables = {"peaks": peaks, "divergence": growing, "rom_accuracy": rom_accuracy}
+        tables = {"peaks": peak_table.table(settings, maps), "divergence": divergence.table(settings, maps)}
+        tables["rom_accuracy"] = rom_accuracy
         judged.append(findings.judge(Evidence(settings, tables, maps)).assign(variation=name))
     return pd.concat(judged, ignore_index=True)[COLUMNS]
