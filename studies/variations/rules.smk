@@ -1,6 +1,6 @@
 # The study repeated with other inputs: calibration, robustness, identification; and on parts of itself: margins. Only
 # the last is part of `all`.
-from functools import cache
+from functools import cache, partial
 
 PLANS = {
     "calibration": config["calibration"],
@@ -24,8 +24,7 @@ def variations_plan(kind):
     return plan
 
 
-def identification_plan():
-    return variations_plan("identification")
+identification_plan = partial(variations_plan, "identification")
 
 
 @cache

@@ -200,9 +200,4 @@ def _equally_long(*arrays: np.ndarray) -> list[np.ndarray]:
     if arrays[0].ndim == 1:
         return list(arrays)
     width = max(array.shape[1] for array in arrays)
-    return [
-        np.pad(array, ((0, 0), (0, width - array.shape[1])), constant_values=np.nan)
-        if array.shape[1] < width
-        else array
-        for array in arrays
-    ]
+    return [np.pad(array, ((0, 0), (0, width - array.shape[1])), constant_values=np.nan) for array in arrays]
