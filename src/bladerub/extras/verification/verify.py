@@ -13,23 +13,23 @@
 """
 
 import math
-import multiprocessing
-import signal
 import time
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
-from bladerub.contact.spec import ElementLaw, RunSpec
+from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import STABLE_PART, with_steps
 from bladerub.contact.strips import element_passage
 from bladerub.extras.important_runs import chosen
@@ -120,21 +120,10 @@ def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:
 def verify_runs(
     blade: ReducedBlade, config: Config, runs: Sequence[StudyRun], jobs: int = 1
 ) -> Iterator[VerifiedRun]:
-    """Verify runs in `jobs` processes, and yield them in their order; raises as `verify_run`."""
-    law = element_law(config)
-    compile_kernel(n_nodes=blade.n_interface, law=law)
-    verify = partial(verify_run, blade, config)
-    if jobs == 1:
-        yield from map(verify, runs)
-        return
-    context = multiprocessing.get_context("spawn")  # a fork of a process with threads may hang
-    with context.Pool(min(jobs, len(runs)), _start_worker, (blade.n_interface, law)) as pool:
-        yield from pool.imap(verify, runs)
-
-
-def _start_worker(n_nodes: int, law: ElementLaw) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends its workers
-    compile_kernel(n_nodes=n_nodes, law=law)
+    """Verify `jobs` runs at once, and yield them in their order; raises as `verify_run`."""
+    compile_kernel(n_nodes=blade.n_interface, law=element_law(config))
+    with threadpool_limits(1, "blas"), ThreadPoolExecutor(jobs) as pool:  # the loop holds no global lock
+        yield from pool.map(partial(verify_run, blade, config), runs)
 
 
 def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRun:
@@ -212,6 +201,5 @@ def _solve(blade: ReducedBlade, row: Any, spec: RunSpec) -> Solved:
     from bladerub.extras.rows.row import simulate_row  # single blades do without
 
     together = simulate_row(blade, spec, row)
-    seconds = time.thread_time() - start
     blades = tuple(replace(blade_result, status=together.status) for blade_result in together.blades)
-    return Solved(blades, together.residual, seconds)
+    return Solved(blades, together.residual, time.thread_time() - start)
