@@ -1,11 +1,18 @@
-"""Numbers of another calculation, or another program, beside reference numbers with their uncertainty."""
+"""``bladerub compare``: numbers of another calculation or program beside reference numbers."""
 
+import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 
-from bladerub.io import tables
+from bladerub.cli import inputs
+from bladerub.cli.inputs import refused
+from bladerub.io.errors import BadInput
+from bladerub.io.folders import BENCHMARKS
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 READ = ["number", "value"]
 """Columns that a compared table must have; ``unit`` and ``uncertainty`` are looked at if they are there."""
@@ -19,14 +26,64 @@ COVERAGE = 2.0
 _DIGITS = 1e-6  # relative; tables have seven digits
 
 
-def compare(folder: str | Path, reference: str | Path, coverage: float = COVERAGE) -> pd.DataFrame:
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = commands.add_parser(
+        "compare",
+        help="compare numbers with reference numbers",
+        description="Compare the tables of a folder with the reference tables of the same names, by the "
+        "column `number`. Numbers agree where they differ by no more than twice their joint uncertainty. "
+        "Those that do not are listed, and the exit code is 1.",
+        epilog="A table needs the columns number and value. It may have unit, which must then be that of the "
+        "reference, and uncertainty, without which its numbers count as exact.",
+    )
+    parser.set_defaults(command=_command)
+    parser.add_argument("folder", type=Path, help="tables to compare", metavar="FOLDER")
+    text = "tables with the columns number, value, unit and uncertainty; rotor37: those of the package"
+    parser.add_argument("reference", type=Path, help=text, metavar="REFERENCE")
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+
+
+def _command(options: argparse.Namespace) -> int:
+    """Compare the tables that the command line names, and print what differs."""
+    reference, package_folder = options.reference, BENCHMARKS / options.reference
+    if package_folder.is_dir() and not reference.is_dir():
+        reference = package_folder
+    for folder in (options.folder, reference):
+        if not folder.is_dir():
+            raise BadInput(f"{folder}: there is no such folder")
+    with refused(ValueError, OSError):
+        table = compare(options.folder, reference)
+    different = table[~table.agrees].drop(columns="agrees").to_dict(orient="records")
+    inputs.show(options, {"compared": len(table), "different": different}, _in_words)
+    return 1 if different else 0
+
+
+def _in_words(figures: dict[str, Any]) -> str:
+    rows, n = figures["different"], figures["compared"]
+    lines = [f"{n - len(rows)} of {n} numbers agree with the reference within the uncertainties"]
+    if rows:
+        names = [f"{row['table']}/{row['number']}" for row in rows]
+        width = 2 + max(map(len, names))
+        lines += ["", inputs.row(width, "outside", "value", "reference", "within", "unit")]
+        for name, row in zip(names, rows, strict=True):
+            cells = (f"{row[key]:.5g}" for key in ("value", "reference", "allowed"))
+            lines.append(inputs.row(width, name, *cells, row["unit"]))
+    return "\n".join(lines)
+
+
+def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
     """Compare the tables of `folder` with those of `reference` that have the same names.
 
-    Two numbers agree where they differ by no more than `coverage` times the root of the sum of squares of
+    Two numbers agree where they differ by no more than `COVERAGE` times the root of the sum of squares of
     their uncertainties. A compared number without one counts as exact. Raises ValueError if the folders have
     no table and number in common, or a number has another unit; OSError if a table cannot be read or lacks a
     column.
     """
+    import pandas as pd  # which commands that read no table do without
+
+    from bladerub.io import tables
+
     folder, parts = Path(folder), []
     for path in sorted(Path(reference).glob("*.csv")):
         reference_table = tables.read(path)
@@ -36,13 +93,13 @@ def compare(folder: str | Path, reference: str | Path, coverage: float = COVERAG
         table = table[[column for column in (*READ, "unit", "uncertainty") if column in table]]
         both = reference_table.merge(table, on="number", suffixes=("_reference", ""))
         _check_units(folder / path.name, both)
-        parts.append(_judged(both, coverage).assign(table=path.stem))
+        parts.append(_judged(both).assign(table=path.stem))
     if not parts or not sum(map(len, parts)):
         raise ValueError(f"{folder}: has no number in common with {reference}")
     return pd.concat(parts, ignore_index=True)[COLUMNS]
 
 
-def _check_units(path: Path, both: pd.DataFrame) -> None:
+def _check_units(path: Path, both: "pd.DataFrame") -> None:
     if "unit_reference" not in both:
         return
     other = both[both.unit.astype(str) != both.unit_reference.astype(str)]
@@ -51,19 +108,10 @@ def _check_units(path: Path, both: pd.DataFrame) -> None:
         raise ValueError(f"{path}: {first.number} is in {first.unit}; must be in {first.unit_reference}")
 
 
-def _judged(both: pd.DataFrame, coverage: float) -> pd.DataFrame:
+def _judged(both: "pd.DataFrame") -> "pd.DataFrame":
+    joint = both.uncertainty
     if "uncertainty_reference" in both:
         joint = np.hypot(both.uncertainty_reference, both.uncertainty.fillna(0.0))
-    else:
-        joint = both.uncertainty
-    allowed = coverage * joint + _DIGITS * both.value_reference.abs()
-    return pd.DataFrame(
-        {
-            "number": both.number,
-            "reference": both.value_reference,
-            "value": both.value,
-            "allowed": allowed,
-            "unit": both.unit,
-            "agrees": (both.value - both.value_reference).abs() <= allowed,
-        }
-    )
+    allowed = COVERAGE * joint + _DIGITS * both.value_reference.abs()
+    agrees = (both.value - both.value_reference).abs() <= allowed
+    return both.rename(columns={"value_reference": "reference"}).assign(allowed=allowed, agrees=agrees)

@@ -3,6 +3,6 @@
 FAULTS = {"files": "extras.verification.integrity:examine"}
 COMMANDS = {
     "verify": "extras.verification.command",
-    "compare": "extras.verification.compare_command",
+    "compare": "extras.verification.compare",
     "check-law": "extras.verification.check_law",
 }
