@@ -54,7 +54,7 @@ def verify(options: argparse.Namespace) -> None:
         raise BadInput(f"--rows = {options.rows}: not with --peaks, which are of single blades")
 
     from bladerub.extras.study_runs import study_runs
-    from bladerub.extras.verification.report import report
+    from bladerub.extras.verification.accuracy import summary
     from bladerub.extras.verification.verify import draw, important_runs, verify_runs
 
     if options.rows:
@@ -76,7 +76,7 @@ def verify(options: argparse.Namespace) -> None:
         runs_done = verify_runs(blade.reduced, config, runs, options.jobs)
         verified = list(inputs.progress_bar(len(runs), "run", runs_done, quiet=options.json))
     inputs.warn_of_residual(options, max(run.energy_residual for run in verified))
-    inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | report(verified), _in_words)
+    inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | summary(verified), _in_words)
 
 
 def _rows(config: "Config", path: Path) -> "list[StudyRun]":

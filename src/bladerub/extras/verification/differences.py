@@ -1,14 +1,14 @@
 """How much two outcomes of the same run differ."""
 
 import math
-from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from bladerub.contact.result import RunResult
+from bladerub.extras.verification.response import spectrum
 from bladerub.settings.analysis import Analysis
-from bladerub.study.spectra import order_spectrum
 from bladerub.study.summary import spectral_peak
 
 
@@ -35,33 +35,24 @@ def differences(
     """
     if any(result.status == "unbounded" for result in (*outcome, *reference)):
         return UNBOUNDED
-    peak, reference_peak = ([_peak(blade, analysis) for blade in blades] for blades in (outcome, reference))
-    revolution_peaks, reference_revolution_peaks = (
-        np.array([blade.revolution_peak for blade in blades]) for blades in (outcome, reference)
-    )
+
+    def over_blades(measure: Callable[[RunResult], Any]) -> float:
+        values, reference_values = (
+            np.array([measure(blade) for blade in blades]) for blades in (outcome, reference)
+        )
+        return _ratio(np.abs(values - reference_values).max(), reference_values.max())
+
     wear, reference_wear = outcome[0].wear, reference[0].wear  # shared by all blades
     return Differences(
         wear_l2=_ratio(np.linalg.norm(wear - reference_wear), np.linalg.norm(reference_wear)),
-        peak=_ratio(np.abs(np.subtract(peak, reference_peak)).max(), max(reference_peak)),
-        revolution_peak=_ratio(
-            np.abs(revolution_peaks - reference_revolution_peaks).max(), reference_revolution_peaks.max()
-        ),
+        peak=over_blades(lambda blade: spectral_peak(*spectrum(blade, analysis))[1]),
+        revolution_peak=over_blades(lambda blade: blade.revolution_peak),
     )
 
 
 def largest(several: Iterable[Differences]) -> Differences:
     """Take the largest of each difference."""
     return Differences(*map(max, zip(*several, strict=True)))
-
-
-def _peak(result: RunResult, analysis: Analysis) -> float:
-    order, amplitude = order_spectrum(
-        result.radial_displacement,
-        result.revolution_peak.size,
-        analysis.spectrum_revolutions,
-        analysis.max_order,
-    )
-    return spectral_peak(order, amplitude)[1]
 
 
 def _ratio(difference: float, reference: float) -> float:

@@ -11,9 +11,9 @@ find even places. More nodes give the reduced model more static modes of the tip
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import astuple, replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -85,7 +85,7 @@ def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd
     A row for each of the peaks that `listed` takes and each model: the peak to which the response rises from
     the study's speed of the peak, and the wear at that speed.
     """
-    rows: list[dict[str, Any]] = []
+    rows = []
     for case, peak in listed(peaks):
         start = float(peak.f_peak)
         for number, model in models.items():
@@ -99,12 +99,8 @@ def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd
                 wear.sum() / own_wear.sum() - 1,
                 np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear),
             )
-            values = (speed, amplitude, *changes, response.run(start).status)
-            rows.append(
-                {name: getattr(case, name) for name in CASE_COLUMNS}
-                | {"order": peak.order, column: number}
-                | dict(zip(_COMPARED, values, strict=True))
-            )
+            what = (*astuple(case)[: len(CASE_COLUMNS)], peak.order, number)
+            rows.append((*what, speed, amplitude, *changes, response.run(start).status))
     return pd.DataFrame(rows, columns=[*CASE_COLUMNS, "order", column, *_COMPARED])
 
 

@@ -32,14 +32,17 @@ def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
     return [pair for pair in described if pair[0] in CASES] or described
 
 
+def spectrum(run: RunResult | Motion, analysis: Analysis) -> tuple[np.ndarray, np.ndarray]:
+    """Return engine orders and amplitudes (m) of a run, as the study has them."""
+    n_revolutions = run.revolution_peak.size
+    return order_spectrum(
+        run.radial_displacement, n_revolutions, analysis.spectrum_revolutions, analysis.max_order
+    )
+
+
 def amplitude_on(order: float, run: RunResult | Motion, analysis: Analysis) -> float:
     """Return the amplitude of a run on an engine order, m, as in `bladerub.study.peaks`."""
-    orders, amplitude = order_spectrum(
-        run.radial_displacement,
-        run.revolution_peak.size,
-        analysis.spectrum_revolutions,
-        analysis.max_order,
-    )
+    orders, amplitude = spectrum(run, analysis)
     window = np.abs(orders - order) <= analysis.peaks.order_halfwidth + 1e-9
     return float(amplitude[window].max())
 

@@ -9,9 +9,9 @@ import pytest
 from study_fixtures import changed
 
 from bladerub.extras.verification import accuracy, verify
+from bladerub.extras.verification.accuracy import summary
 from bladerub.extras.verification.compare import compare as compare_tables
 from bladerub.extras.verification.differences import UNBOUNDED, Differences, differences
-from bladerub.extras.verification.report import report
 from bladerub.extras.verification.verify import NEIGHBOURS, Seconds, StudyRun, VerifiedRun
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.maps import write_map
@@ -144,7 +144,7 @@ def test_runs_beyond_tolerance_the_worst_first():
         run_with(0.3, 0.001, revolution_peak=0.03),
         run_with(0.4, math.inf, math.inf, math.inf, status="unbounded", spread=None),
     ]
-    figures = report(runs)
+    figures = summary(runs)
     assert [entry["f_omega"] for entry in figures["beyond"]] == [0.4, 0.3, 0.2]
     assert figures["within_1_percent"] == 0.5  # the peak of a revolution does not count
     assert figures["beyond"][2]["sensitive"]
