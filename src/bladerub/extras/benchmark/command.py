@@ -74,14 +74,12 @@ def benchmark(options: argparse.Namespace) -> None:
     stored_blade, config = inputs.read_blade(options, config)
     blade = stored_blade.reduced
 
-    from bladerub.extras.benchmark.measure import benchmark as measure
+    from bladerub.extras.benchmark import measure
 
-    figures = measure(blade, config, options.rounds, options.cores, _report_stage)
+    figures = measure.benchmark(blade, config, options.rounds, options.cores, _report_stage)
     if options.nodes:
-        from bladerub.extras.benchmark.nodes import cost_by_nodes
-
         _report_stage("building blades with more interface nodes")
-        figures["cost_by_nodes"] = cost_by_nodes(config, options.nodes, options.rounds)
+        figures["cost_by_nodes"] = measure.cost_by_nodes(config, options.nodes, options.rounds)
     if options.stress:
         from bladerub.extras.stress.cost import cost_of_stress
 

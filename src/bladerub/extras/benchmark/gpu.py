@@ -11,7 +11,6 @@ import pandas as pd
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
-from bladerub.contact.spec import RunSpec
 from bladerub.extras.benchmark import machine
 from bladerub.extras.gpu.batch import Device
 from bladerub.extras.gpu.many import LeftOut, simulate_many
@@ -76,7 +75,9 @@ def compare(
     report(f"{len(numbers)} runs on this processor")
 
     def timed_run(number: int) -> tuple[Measures, float]:
-        return _timed(blade, described[number])
+        start = time.thread_time()  # other processes and threads do not count
+        result = simulate(blade, described[number])
+        return measures(result), time.thread_time() - start
 
     cpu_runs = dict(each_done(timed_run, numbers, machine.cores()))
     steps = sum(run.n_steps for run in gpu_measures.values())
@@ -114,9 +115,3 @@ def agreement(pairs: list[tuple[Measures, Measures]]) -> dict[str, float]:
 def row(gpu: str, figures: Mapping[str, Any]) -> pd.DataFrame:
     """Arrange what `compare` returns for the GPU of this name."""
     return pd.DataFrame([{"gpu": gpu, **figures}], columns=COLUMNS)
-
-
-def _timed(blade: ReducedBlade, spec: RunSpec) -> tuple[Measures, float]:
-    start = time.thread_time()
-    result = simulate(blade, spec)
-    return measures(result), time.thread_time() - start

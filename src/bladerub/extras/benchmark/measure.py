@@ -1,25 +1,27 @@
 """Speeds of the time loop, measured side by side in one process.
 
 Every loop integrates the same two revolutions from rest: once on a casing so near that the tip touches it in
-a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts.
+a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts. So they do
+with more interface nodes on the tip.
 """
 
 import statistics
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numba import njit
 
-from bladerub.blade.model import ReducedBlade
+from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.benchmark import machine, peak, plain
+from bladerub.extras.benchmark import machine, plain
 from bladerub.extras.benchmark.estimate import estimate
-from bladerub.numerics.vectors import LANES
+from bladerub.numerics.vectors import LANES, broadcast, lane_sum
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
@@ -29,6 +31,8 @@ REVOLUTIONS = 2
 REPEATS = 25
 """Marches of the loop of the study in each round: free ones take half a millisecond, so the median counts."""
 PEAK_TURNS = 2_000_000
+PEAK_CHAINS = 12
+"""Products and sums in progress at once: more than a processor needs to be busy, fewer than its registers."""
 
 FLOPS_PER_MODE = 39
 """Of a step by itself: recurrence 3, damping loss 4, displacement of 16 coordinates of the tip 32."""
@@ -38,6 +42,7 @@ FLOPS_PER_FORCED_MODE = 32
 FLOPS_PER_RESPONSE = 2 * 16 * 16
 FLOPS_PER_ELEMENT = 17 + 52  # force once, and wear with its ledger
 FLOPS_PER_NODE = 60
+FLOPS_PER_TURN = PEAK_CHAINS * LANES * 2
 
 
 def benchmark(
@@ -61,13 +66,13 @@ def benchmark(
     law = touching.coating.element_law
     in_python, compiled = plain.integrator(law), plain.compiled(law)
     _plain(compiled, blade, touching, 1)
-    peak.turns(1)
+    multiply_and_add(1)
 
     seconds: dict[str, list[dict[str, float]]] = {name: [] for name in specs}
     operations: list[float] = []
     for number in range(rounds):
         progress(f"round {number + 1} of {rounds}")
-        operations.append(PEAK_TURNS * peak.FLOPS_PER_TURN / _timed(peak.turns, PEAK_TURNS))
+        operations.append(PEAK_TURNS * FLOPS_PER_TURN / _timed(multiply_and_add, PEAK_TURNS))
         for name, spec in specs.items():
             per_element = set_up(blade, spec)[1].steps_per_element
             steps = per_element * spec.coating.n_elements * spec.revolutions
@@ -110,6 +115,20 @@ def benchmark(
     }
 
 
+@njit
+def multiply_and_add(n):
+    """Do what a processor can do at best, `n` times in each chain; no two start alike and become one."""
+    factor, addend = broadcast(0.999), broadcast(0.001)
+    a, b, c, d = broadcast(1.0), broadcast(1.1), broadcast(1.2), broadcast(1.3)
+    e, f, g, h = broadcast(1.4), broadcast(1.5), broadcast(1.6), broadcast(1.7)
+    i, j, k, m = broadcast(1.8), broadcast(1.9), broadcast(2.0), broadcast(2.1)
+    for _ in range(n):
+        a, b, c, d = a * factor + addend, b * factor + addend, c * factor + addend, d * factor + addend
+        e, f, g, h = e * factor + addend, f * factor + addend, g * factor + addend, h * factor + addend
+        i, j, k, m = i * factor + addend, j * factor + addend, k * factor + addend, m * factor + addend
+    return lane_sum(((a + b) + (c + d)) + ((e + f) + (g + h)) + ((i + j) + (k + m)))
+
+
 def in_contact(blade: ReducedBlade, spec: RunSpec) -> tuple[RunSpec, float]:
     """Find the interference of the casing that gives contact in about `SHARE` of the steps; return both."""
     upper, lower = 2 * spec.casing.amplitude, 0.0
@@ -146,6 +165,19 @@ def middle_run(config: Config) -> RunSpec:
     grid = speeds(config)
     spec = run_spec(config, cases[len(cases) // 2], grid[len(grid) // 2])
     return replace(spec, revolutions=REVOLUTIONS, scheme="exponential")
+
+
+def cost_by_nodes(config: Config, counts: Sequence[int], rounds: int) -> dict[str, float]:
+    """Return the time of a simulation with contact, over that with eight nodes, by the number of nodes.
+
+    Blades are those of `config`, the mesh fine enough along the chord for all.
+    """
+    from bladerub.extras.verification.refinement import blade_with  # other measurements do without
+
+    blades = {n: blade_with(config, n) for n in (N_INTERFACE, *counts)}
+    spec, _ = in_contact(blades[N_INTERFACE], middle_run(config))
+    seconds = [{n: production(blade, spec) for n, blade in blades.items()} for _ in range(rounds)]
+    return {str(n): statistics.median(row[n] / row[N_INTERFACE] for row in seconds) for n in counts}
 
 
 def _timed(function: Callable, *arguments: Any) -> float:
