@@ -5,7 +5,7 @@ Runs of one blade at one speed, or of one coating, share what is equal: it is pa
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -126,22 +126,6 @@ def source(variant: Variant) -> str:
     )
 
 
-@dataclass
-class _Records:
-    """Records of equal size, each kept once."""
-
-    records: list[np.ndarray] = field(default_factory=list)
-    numbers: dict[bytes, int] = field(default_factory=dict)
-
-    def number(self, record: np.ndarray) -> int:
-        """Return the number of a record, which is kept if there is none like it."""
-        content = record.tobytes()
-        if content not in self.numbers:
-            self.numbers[content] = len(self.records)
-            self.records.append(record)
-        return self.numbers[content]
-
-
 class Work(NamedTuple):
     """What a device is given: a program, and the arrays that it reads."""
 
@@ -207,22 +191,23 @@ def pack(variant: Variant, simulations: Sequence[Simulation]) -> Work:
     turns = variant.turns
     runs = np.empty((len(simulations), 5), dtype=np.int32)
     modes = np.zeros((len(simulations), 2, WARP * variant.vectors))
-    modal, stator, casing, tip = (_Records() for _ in range(4))
+    tables: list[dict[bytes, int]] = [{} for _ in range(4)]  # numbers of records, those of each kind once
     for i, simulation in enumerate(simulations):
-        runs[i] = (
-            modal.number(_modal_record(simulation.modal, simulation.flight, variant.vectors, turns)),
-            stator.number(_stator_record(simulation, turns)),
-            casing.number(
-                np.concatenate([simulation.stator.initial_gap.ravel(), simulation.stator.minimum_gap])
-            ),
-            tip.number(_tip_record(simulation)),
-            simulation.steps_per_element,
+        records = (
+            _modal_record(simulation.modal, simulation.flight, variant.vectors, turns),
+            _stator_record(simulation, turns),
+            np.concatenate([simulation.stator.initial_gap.ravel(), simulation.stator.minimum_gap]),
+            _tip_record(simulation),
         )
+        for kind, (table, record) in enumerate(zip(tables, records, strict=True)):
+            runs[i, kind] = table.setdefault(record.tobytes(), len(table))
+        runs[i, 4] = simulation.steps_per_element
         q, before, _ = simulation.state.q
         modes[i, :, : q.size] = q, q - before
-    records = (np.array(table.records) for table in (modal, stator, casing, tip))
-    size = (variant.n_elements, variant.revolutions)
-    return Work(source(variant), _shared(variant), *size, *records, runs, modes)
+    packed = (np.array([np.frombuffer(record) for record in table]) for table in tables)
+    return Work(
+        *(source(variant), _shared(variant), variant.n_elements, variant.revolutions, *packed, runs, modes)
+    )
 
 
 def finish(simulation: Simulation, output: Output, i: int) -> History | None:

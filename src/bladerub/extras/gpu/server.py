@@ -1,7 +1,7 @@
 """One process that has the GPU, for the jobs of a workflow: what they ask for is computed together there.
 
 Kernels of different processes take turns on a GPU, and few runs take as long as many. So Snakemake's main
-process starts this one, and each job sends its runs to it (`bladerub.extras.gpu.process`).
+process starts this one, and each job sends its runs to it (`bladerub.extras.gpu.solver`).
 """
 
 import contextlib

@@ -1,13 +1,18 @@
 """A GPU as what computes the runs of a study (`bladerub.study.solver`)."""
 
 import os
+import subprocess
+import sys
+import tempfile
+import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
+from pathlib import Path
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.gpu import ADDRESS, process
+from bladerub.extras.gpu import ADDRESS
 from bladerub.io import sources
 from bladerub.study.solver import Solved, Solver
 
@@ -44,8 +49,27 @@ class Gpu(Solver):
             device.connect()
 
     def start(self) -> None:
-        """Start the process that has the GPU."""
-        process.start_server()
+        """Start the process that has the GPU, `bladerub.extras.gpu.server`, for the jobs of this one.
+
+        It ends with this one, which ends without a GPU. One that the environment names already is used.
+        """
+        if os.environ.get(ADDRESS):
+            return
+        address = Path(tempfile.mkdtemp(prefix="bladerub-gpu-")) / "socket"
+        server = subprocess.Popen(
+            [sys.executable, "-m", "bladerub.extras.gpu.server", str(address)],
+            stdin=subprocess.PIPE,  # ends with this process, however that ends, and the server with it
+            start_new_session=True,  # Ctrl-C is for Snakemake, whose jobs may end theirs
+        )
+        while not address.exists():
+            if server.poll() is not None:
+                raise SystemExit(server.returncode)  # it has said why
+            time.sleep(0.05)
+        os.environ[ADDRESS] = str(address)
+        _servers.append(server)
+
+
+_servers: list[subprocess.Popen] = []  # keeps their input open
 
 
 @cache
