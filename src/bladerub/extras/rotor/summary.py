@@ -9,7 +9,7 @@ import pandas as pd
 from scipy.stats import binom
 
 from bladerub.extras.rotor.plan import Combination, Plan, described
-from bladerub.extras.rows.datasets import OF_BLADES
+from bladerub.extras.rows.study import OF_BLADES
 from bladerub.settings.analysis import Analysis
 from bladerub.study.growth import judge
 from bladerub.study.manifest import read_manifest

@@ -13,7 +13,7 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import NamedTuple
 
@@ -27,13 +27,13 @@ from bladerub.contact.integration import History, Segment
 from bladerub.contact.kernel.records import COATING
 from bladerub.contact.laws import module_for
 from bladerub.contact.modes import Modes, modes_at, tip_radii
+from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.run import run_result
 from bladerub.contact.setup import fixed_steps, set_up_modes
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.start import Seat
 from bladerub.contact.strips import element_area
 from bladerub.extras.rows.kernel import Coupling, Rests, RowSimulation
-from bladerub.extras.rows.result import RowResult
 from bladerub.extras.rows.spec import Row, RowBlade
 from bladerub.numerics.lanes import lanes_for
 
@@ -42,6 +42,39 @@ _TURN = 2 * np.pi
 LONGEST_IMPULSE = 0.5
 """Phase of a coupled mode in the passage of an element up to which the impulses of the disk are accepted:
 their relative error is a 24th of its square."""
+
+
+@dataclass(frozen=True)
+class RowResult:
+    """Outcome of a run of a row, in SI units.
+
+    Of each blade revolutions are counted from the start of the row, the wear is that of all, and the energy
+    ledger lacks the work of the disk.
+    """
+
+    status: str  # as of `Outcome`, for the whole row
+    message: str
+    angle: np.ndarray  # (n_elements,), casing angle of the element centres, rad
+    wear: np.ndarray  # (8, n_elements), permanent shortening under each node by all blades, m
+    blades: tuple[RunResult, ...]  # in the order of the row
+    worn_volume: np.ndarray  # (n_blades,), that each has worn off, m³
+    unbounded: tuple[int, ...]  # numbers, counted from 1, of the blades that left the displacement limit
+    disk_work: np.ndarray  # (n_blades,), on each blade, J
+    disk_energy: float  # elastic, that the disk has taken up since the start, J
+
+    @property
+    def energy(self) -> Energy:
+        """The ledgers of all blades together."""
+        ledgers = [blade.energy for blade in self.blades]
+        return Energy(
+            **{entry.name: sum(getattr(ledger, entry.name) for ledger in ledgers) for entry in fields(Energy)}
+        )
+
+    @property
+    def residual(self) -> float:
+        """What the ledger of all blades, coating and disk misses, over the work exchanged in the contact."""
+        total = self.energy
+        return replace(total, elastic=total.elastic + self.disk_energy).residual
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads

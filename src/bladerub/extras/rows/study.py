@@ -1,6 +1,7 @@
 """Rows of blades as runs of a study (`bladerub.study.solver`)."""
 
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -8,14 +9,37 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.config.checks import reads
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.rows.result import RowResult
 from bladerub.extras.rows.spec import Disk, Row
 from bladerub.io import sources
+from bladerub.io.errors import format_value
 from bladerub.settings.analysis import Analysis
 from bladerub.settings.study import Config
-from bladerub.study.grid import CoatingCase
+from bladerub.study.grid import CoatingCase, coating_cases
 from bladerub.study.store import StoredRun, stored_run
+
+DATASETS = {
+    "row": ((), "1", "the row of blades, as bladerub.Row.from_json reads it"),
+    "blade": (("blade",), "1", "number of the blade in the row, counted from 1"),
+    "blade_angle": (("blade",), "rad", "angle by which the blade is ahead of the start"),
+    "blade_length": (("blade",), "m", "tip radius of the blade beyond the nominal one"),
+    "blade_frequency": (("blade",), "1", "relative deviation of the first frequency of the blade"),
+    "blade_damping": (("blade",), "1", "damping ratio of the blade over that of the run"),
+    "blade_peak": (("blade",), "m", "largest absolute radial displacement of node 1, last revolutions"),
+    "blade_amplitude": (
+        ("blade",),
+        "m",
+        "largest half range of the radial displacement of node 1 in a revolution, last revolutions",
+    ),
+    "blade_worn_volume": (("blade",), "m3", "volume of coating that the blade has worn off"),
+    "blade_unbounded": (("blade",), "1", "1 where the blade left the displacement limit"),
+    "blade_energy_residual": (("blade",), "1", "what the ledger of the blade misses, without the disk"),
+}
+"""What a run file holds of a row: dimensions, unit and meaning of each dataset, by its name."""
+
+OF_BLADES = tuple(name for name in DATASETS if name.startswith("blade_"))
+"""Those with a number for each blade."""
 
 
 def described(config: Config) -> Row:
@@ -39,6 +63,38 @@ def described(config: Config) -> Row:
         for blade, draw in zip(row.blades, drawn, strict=True)
     )
     return replace(row, blades=tuple(blades))
+
+
+@reads("rotor", "contact", "coatings", "solver", "blade")
+def problems(config: Config) -> Iterator[str]:
+    """Yield what is wrong with the row: its lists, its damping, and blades that could meet."""
+    try:
+        row = described(config)
+    except ValueError as error:  # it begins with "row: "
+        yield f"rotor: {str(error).partition(': ')[2]}"
+        return
+    usual = config.contact.damping_ratio
+    ratios = (case.own.get("damping_ratio", usual) for case in coating_cases(config))
+    if (ratio := max(ratios) * max(blade.damping for blade in row.blades)) >= 1:
+        damping = format_value(config.rotor.damping)
+        yield f"rotor.damping = {damping}: must be below 1 times the damping ratio, it comes to {ratio:g}"
+    if config.blade.plugged("source") is None:
+        yield from _neighbours(config, row)
+
+
+def _neighbours(config: Config, row: Row) -> Iterator[str]:
+    """Check what a row asks of the distance of its blades, at the largest radius of the tip."""
+    contact, blade, n_elements = config.contact, config.blade, config.contact.elements
+    turn = 2 * np.pi * (blade.hub_radius + blade.length)
+    moved = config.solver.displacement_limit * blade.length / turn * n_elements
+    fewest = math.ceil(2 * (contact.tip_profile.half_width + moved)) + 4
+    starts = sorted(int(neighbour.angle / (2 * np.pi) % 1 * n_elements) for neighbour in row.blades)
+    nearest = min(np.diff([*starts, starts[0] + n_elements]))
+    if len(starts) > 1 and nearest < fewest:
+        yield (
+            f"rotor.blades = {len(starts)}: two are {nearest} of {n_elements} contact.elements apart; "
+            f"must be {fewest} or more, so that they cannot meet within solver.displacement_limit"
+        )
 
 
 def drawn(n_blades: int, seed: int, coupling: float = 0.0, **scatters: float) -> Row:
@@ -76,60 +132,43 @@ def compute(
     """Simulate a row, and return what is stored of it.
 
     It is the run of the blade that vibrates most, whose number is the attribute ``blade``, with the energy of
-    the whole row and what `bladerub.extras.rows.datasets` describes. Other parameters are those of
-    `bladerub.study.job.compute`. Raises `ValueError` as `bladerub.extras.rows.row.simulate_row`.
+    the whole row and `DATASETS`. Other parameters are those of `bladerub.study.job.compute`. Raises
+    `ValueError` as `bladerub.extras.rows.row.simulate_row`.
     """
     from bladerub.extras.rows.row import simulate_row  # loads the compiler: who plans runs alone does without
 
-    outcome = simulate_row(blade, spec, row, progress)
-    return _stored(case, spec, row, outcome, key, analysis, keep_history)
-
-
-def _stored(
-    case: CoatingCase,
-    spec: RunSpec,
-    row: Row,
-    result: RowResult,
-    run_key: str,
-    analysis: Analysis,
-    keep_history: bool,
-) -> StoredRun:
-    """Take from the outcome of a row what is stored of it, see `compute`."""
+    result = simulate_row(blade, spec, row, progress)
     last = slice(-analysis.spectrum_revolutions, None)
-    amplitude = _largest(blade.revolution_amplitude[last] for blade in result.blades)
+    amplitude, peak = (  # NaN where a blade has none
+        np.fmax.reduce([getattr(blade, name)[last] for blade in result.blades], axis=1)
+        for name in ("revolution_amplitude", "revolution_peak")
+    )
     unbounded = np.isin(np.arange(1, len(row.blades) + 1), result.unbounded)
     strongest = int(np.argmax(np.where(unbounded == unbounded.any(), np.nan_to_num(amplitude), -1.0)))
-    strongest_blade = result.blades[strongest]
-    outcome = replace(strongest_blade, energy=result.energy, status=result.status, message=result.message)
-    stored = stored_run(case, spec, outcome, run_key, analysis, keep_history)
-    counters = ("n_steps", "n_contact_steps", "n_reversed_steps", "n_fallback_steps", "n_unconverged_steps")
-    stored.attributes.update(
-        {name: sum(getattr(blade, name) for blade in result.blades) for name in counters}
+    outcome = replace(
+        result.blades[strongest], energy=result.energy, status=result.status, message=result.message
     )
-    stored.attributes.update(
+    run = stored_run(case, spec, outcome, key, analysis, keep_history)
+    counters = ("n_steps", "n_contact_steps", "n_reversed_steps", "n_fallback_steps", "n_unconverged_steps")
+    run.attributes.update(
+        {name: sum(getattr(blade, name) for blade in result.blades) for name in counters},
         slowest_sliding=min(blade.slowest_sliding for blade in result.blades),
         energy_residual=float(result.residual),
         disk_energy=float(result.disk_energy),
         blade=strongest + 1,
     )
-    properties = {
-        name: np.array([getattr(blade, name) for blade in row.blades])
-        for name in ("angle", "length", "damping")
-    }
-    stored.data.update({f"blade_{name}": values for name, values in properties.items()})
-    stored.data.update(
+    run.data.update(
+        {
+            f"blade_{name}": np.array([getattr(blade, name) for blade in row.blades])
+            for name in ("angle", "length", "damping")
+        },
         row=np.array(row.to_json()),
         blade=np.arange(1, len(row.blades) + 1),
         blade_frequency=np.array([blade.frequency_factors(1)[0] - 1 for blade in row.blades]),
-        blade_peak=_largest(blade.revolution_peak[last] for blade in result.blades),
+        blade_peak=peak,
         blade_amplitude=amplitude,
         blade_worn_volume=result.worn_volume,
         blade_unbounded=unbounded.astype(np.int8),
         blade_energy_residual=np.array([blade.energy.residual for blade in result.blades]),
     )
-    return stored
-
-
-def _largest(of_blades: Iterable[np.ndarray]) -> np.ndarray:
-    """Largest of some numbers of each blade; NaN where it has none."""
-    return np.array([np.fmax.reduce(numbers) for numbers in of_blades])
+    return run
