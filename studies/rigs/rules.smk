@@ -1,6 +1,6 @@
 # A rigid tip on a coated disk, pass by pass (config/rigs.yaml). Not part of `all`.
 from bladerub.contact.laws import NAMES
-from bladerub.extras.rig.plan import PLAN as RIGS
+from bladerub.extras.rig.spec import PLAN as RIGS
 
 
 rule rigs:
@@ -9,7 +9,7 @@ rule rigs:
         laws=files_behind(
             *(f"extras.laws.{name}" for name in NAMES if name != "plastic")
         ),
-        computing=files_behind("extras.rig.table"),
+        computing=files_behind("extras.rig.passes"),
         drawing=files_behind("extras.plots.rigs"),
     output:
         **drawn("rigs", "Model", with_data=True),

@@ -5,8 +5,8 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.plots.rigs import rigs
-from bladerub.extras.rig.plan import read_rigs
-from bladerub.extras.rig.table import compared, table
+from bladerub.extras.rig.passes import compared, table
+from bladerub.extras.rig.spec import read_rigs
 from bladerub.workflow import outputs
 
 described = read_rigs(snakemake.input.rigs)

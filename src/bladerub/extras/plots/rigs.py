@@ -11,7 +11,7 @@ from bladerub.plots.style import BLUE, ORANGE, PAGE, new_figure, styled
 def rigs(passes: pd.DataFrame, compared: pd.DataFrame) -> Figure:
     """Draw forces and worn depth of each rig over its passes, and what was measured in the last one.
 
-    `passes` and `compared` are of `bladerub.extras.rig.table`.
+    `passes` and `compared` are of `bladerub.extras.rig.passes`.
     """
     names = list(passes.rig.unique())
     figure = new_figure(PAGE, 0.3 * PAGE * len(names))

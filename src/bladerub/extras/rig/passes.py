@@ -9,6 +9,7 @@
 """
 
 import math
+from collections.abc import Iterable
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -65,6 +66,28 @@ def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> p
         )
         wear = passage.wear
     return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def table(rigs: Iterable[Rig]) -> pd.DataFrame:
+    """Simulate the passes of rigs; a row each, with the ``rig`` and its ``element_law``."""
+    passes = {(rig.name, rig.law.label): simulate_passes(rig) for rig in rigs}
+    table = pd.concat(passes, names=["rig", "element_law", "index"])
+    return table.reset_index().drop(columns="index")
+
+
+def compared(rigs: Iterable[Rig], passes: pd.DataFrame) -> pd.DataFrame:
+    """Set the last pass of each rig beside what was measured: a row for each of `MEASURABLE`.
+
+    ``computed`` and ``measured_on_rig`` are in the unit of the column; the latter is NaN where nothing was
+    measured. ``assumed`` lists what the ``source`` does not give.
+    """
+    rows = []
+    for rig in rigs:
+        last = passes[passes.rig == rig.name].iloc[-1]
+        for name in MEASURABLE:
+            measured = rig.measured.get(name, float("nan"))
+            rows.append((rig.name, name, last[name], measured, ", ".join(rig.assumed), rig.source))
+    return pd.DataFrame(rows, columns=["rig", "quantity", "computed", "measured_on_rig", "assumed", "source"])
 
 
 class _Passage(NamedTuple):

@@ -1,11 +1,18 @@
-"""What a rig is: tip, coated disk and incursion, in SI units."""
+"""What a rig is: tip, coated disk and incursion, in SI units; and rigs of a file (config/rigs.yaml)."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
+from pathlib import Path
 
+from bladerub.config.errors import ConfigError
 from bladerub.config.problems import problems
+from bladerub.contact.laws import element_law
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
-from bladerub.extras.rig.settings import RigSettings
+from bladerub.extras import plans
+from bladerub.extras.rig.settings import RigPlan, RigSettings
+
+PLAN = Path("config/rigs.yaml")
+"""The rigs of a study, in its folder."""
 
 MEASURABLE = (
     *("normal_force", "tangential_force", "normal_impulse", "tangential_impulse", "largest_pressure"),
@@ -111,3 +118,16 @@ class Rig:
         return Coating(
             self.E, self.K, self.theta, self.yield_stress, 1.0, self.thickness, 1, element_law=self.law
         )
+
+
+def read_rigs(path: str | Path) -> list[Rig]:
+    """Read rigs; raises `ConfigError`, with file, line, key, value and what would be right."""
+    rigs = []
+    for name, located in plans.read_plan(path, RigPlan).content["rigs"].content.items():
+        rig = RigSettings.model_validate(located.plain())
+        try:
+            values = rig.plain() | {"law": element_law(rig.law), "assumed": tuple(rig.assumed)}
+            rigs.append(Rig(name, **values))
+        except ValueError as error:
+            raise ConfigError.at(located.location, f"rigs.{name}.{error}") from error
+    return rigs

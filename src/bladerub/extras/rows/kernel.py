@@ -59,7 +59,7 @@ class RowSimulation:
         self.first, self.begins, self.rests = np.array(first), np.array(begins), rests
         self.work = np.zeros(len(blades))
         self._kinds = blades[0].records
-        self._rows = [rows_of(kind) for kind in zip(*(blade.records for blade in blades), strict=True)]
+        self._rows = tuple(rows_of(kind) for kind in zip(*(blade.records for blade in blades), strict=True))
 
     def advance(self, displacement: np.ndarray, first: int) -> tuple[int, list[Progress]]:
         """Integrate the passage of n elements, from the one that is the `first` since the start.
@@ -76,7 +76,7 @@ class RowSimulation:
             part = np.ascontiguousarray(displacement[:, travel : travel + at_once])
             over = (self.first + first + travel) % blade.stator.n_elements
             n_passed = _integrate_row(
-                *(self._kinds, *self._rows, blade.steps_per_element, over, self.begins - first - travel),
+                *(self._kinds, self._rows, blade.steps_per_element, over, self.begins - first - travel),
                 *(part, counts, ranges, self.coupling, self.work),
             )
             displacement[:, travel : travel + at_once] = part
@@ -136,21 +136,9 @@ def record_at(context, record, address):
 
 @njit_on_disk(solver_digest(), nogil=True)
 def _integrate_row(
-    kinds,
-    modals,
-    flights,
-    stators,
-    tips,
-    states,
-    steps_per_element,
-    over,
-    begins,
-    displacement,
-    counts,
-    ranges,
-    coupling,
-    work,
+    kinds, rows, steps_per_element, over, begins, displacement, counts, ranges, coupling, work
 ):
+    modals, flights, stators, tips, states = rows
     n_blades, n_elements = displacement.shape
     is_coupled = coupling.impulse.shape[0] > 0
     is_flying, reach = np.zeros(n_blades, dtype=np.bool_), np.zeros(n_blades)

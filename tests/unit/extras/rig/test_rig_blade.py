@@ -14,10 +14,8 @@ from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.plots.rigs import rigs as draw
 from bladerub.extras.rig import blade as elastic
-from bladerub.extras.rig.passes import simulate_passes
-from bladerub.extras.rig.plan import PLAN, read_rigs
-from bladerub.extras.rig.spec import MEASURABLE, Rig
-from bladerub.extras.rig.table import compared, table
+from bladerub.extras.rig.passes import compared, simulate_passes, table
+from bladerub.extras.rig.spec import MEASURABLE, PLAN, Rig, read_rigs
 from bladerub.io.folders import ROOT
 from bladerub.io.tables import described_columns
 
