@@ -18,11 +18,8 @@ _ROWS = (
     *(*_COMBINATION, "rows", "unbounded_rows", "divergent_rows"),
     *(f"row_amplitude_{statistic}" for statistic in ("median", "low", "high", "p05", "p95")),
     *(f"amplification_{statistic}" for statistic in ("median", "low", "high", "p05", "p95")),
-    *(
-        f"{share}_{statistic}"
-        for share in ("longest_share", "largest_share")
-        for statistic in ("median", "low", "high")
-    ),
+    *(f"longest_share_{statistic}" for statistic in ("median", "low", "high")),
+    *(f"largest_share_{statistic}" for statistic in ("median", "low", "high")),
     *("wear_harmonic", "wear_harmonic_rows", "wear_harmonic_share_median", "lobes_lowest", "lobes_highest"),
     "energy_residual",
 )
@@ -51,11 +48,7 @@ KEPT = {
     ),
     "rotor": _ROWS,
     "rotor_half": _ROWS,
-    "rotor_drift": (
-        *_COMBINATION,
-        "rows",
-        *(f"pattern_drift_{statistic}" for statistic in ("median", "p05", "p95")),
-    ),
+    "rotor_drift": (*_COMBINATION, "rows", "pattern_drift_median", "pattern_drift_p05", "pattern_drift_p95"),
     "run_bands": (
         *("casing", "E", "K", "theta", "f_omega", "draws", "divergent_draws"),
         *("max_wear_median", "max_wear_low", "max_wear_high", "lobes_lowest", "lobes_highest"),
@@ -111,14 +104,12 @@ def take(source: Path, target: Path) -> None:
     if name not in COUNTED | KEPT and not only:
         tables.copy(source, target)
         return
-    table, origin = tables.read(source), tables.read_origin(source)
-    columns_files = [*plugins.files("columns.csv"), *ROOT.glob("studies/*/columns.csv")]
+    table, origin, digits = tables.read(source), tables.read_origin(source), None
     for column, value in only.items():
         table = table[table[column] == value]
     if name in COUNTED:
-        counted = table.groupby(COUNTED[name], as_index=False).size()
-        tables.write(target, counted.rename(columns={"size": "runs"}), origin, None, columns_files)
+        table = table.groupby(COUNTED[name], as_index=False).size().rename(columns={"size": "runs"})
     elif name in KEPT:
-        tables.write(target, table[[*KEPT[name]]], origin, "%.4g", columns_files)
-    else:
-        tables.write(target, table, origin, None, columns_files)
+        table, digits = table[[*KEPT[name]]], "%.4g"
+    columns_files = [*plugins.files("columns.csv"), *ROOT.glob("studies/*/columns.csv")]
+    tables.write(target, table, origin, digits, columns_files)

@@ -13,7 +13,7 @@ def numbers(tables):
     """Return the text for each name on the page."""
     findings, margins = tables["findings"], tables["margins"]
     fine = rows(tables["fine_margins"], variation="study")
-    longer = tables["longer_findings"]
+    longer, rigid = tables["longer_findings"], rows(tables["rigid_convergence"], complete=True)
     return (
         {
             "parts": fixed(len(findings)),
@@ -39,7 +39,7 @@ def numbers(tables):
         | _peaks(tables["peaks"])
         | _longer_peaks(tables["peaks"], tables["longer_peaks"])
         | _divergence(tables["divergence"], tables["longer_divergence"])
-        | {"rigid_error": _rigid_error(tables["rigid_convergence"])}
+        | {"rigid_error": percent(rigid["amplitude_change"].abs().max(), 1)}
     )
 
 
@@ -141,8 +141,3 @@ def _shares(divergence, modulus):
     )
     shares.insert(0, modulus, "diverge, %")
     return table(shares)
-
-
-def _rigid_error(rigid):
-    """Write how far the amplitudes on the rigid casing are known, in per cent."""
-    return percent(rows(rigid, complete=True)["amplitude_change"].abs().max(), 1)
