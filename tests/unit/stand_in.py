@@ -11,6 +11,8 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
 from bladerub.io import checksum
 
+COARSE = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
+
 
 @pytest.fixture(scope="session")
 def blade():

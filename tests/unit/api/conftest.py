@@ -1,15 +1,14 @@
 import pytest
+from stand_in import COARSE
 
 import bladerub as br
-
-SMALL = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
 
 
 @pytest.fixture(scope="session")
 def small(tmp_path_factory):
     """A folder with a config whose blade is coarse, and a cache for this blade."""
     folder = tmp_path_factory.mktemp("api")
-    (folder / "small.yaml").write_text(SMALL + "results: results_of_no_workflow\n")
+    (folder / "small.yaml").write_text(COARSE + "results: results_of_no_workflow\n")
     return folder
 
 

@@ -1,12 +1,12 @@
 import json
 
 import pytest
+from stand_in import COARSE
 
 from bladerub.cli import inputs, main
 from bladerub.config import record
 from bladerub.io.folders import ROOT
 
-COARSE = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
 SHORT = """contact: {elements: 200}
 coatings: [{casing: 2nd, E: [2, 20], K: [0.5], theta: [0.15]}]
 speeds: {start: 0.2, stop: 0.4, step: 0.1, extra: []}

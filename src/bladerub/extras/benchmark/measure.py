@@ -87,10 +87,6 @@ def benchmark(
     study = estimate(blade, config, cores or machine.cores())
     median = statistics.median
     flops = {name: useful_flops(blade, spec) for name, spec in specs.items()}
-
-    def ratio(loop: str, name: str) -> float:
-        return median(row[loop] / row["production"] for row in seconds[name])
-
     return {
         **machine.describe(),
         "rounds": rounds,
@@ -100,10 +96,11 @@ def benchmark(
             loop: {name: 1 / median(row[loop] for row in rows) for name, rows in seconds.items()}
             for loop in ("numpy", "numba", "production")
         },
-        "ratio_to_numpy": ratio("numpy", "contact"),
-        "ratio_to_numba": ratio("numba", "contact"),
-        "ratio_to_numpy_free": ratio("numpy", "free"),
-        "ratio_to_numba_free": ratio("numba", "free"),
+        **{
+            f"ratio_to_{loop}{ending}": median(row[loop] / row["production"] for row in seconds[name])
+            for name, ending in (("contact", ""), ("free", "_free"))
+            for loop in ("numpy", "numba")
+        },
         "peak_flops": median(operations),
         **{
             f"fraction_of_peak_{name}": median(

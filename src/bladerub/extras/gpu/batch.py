@@ -242,15 +242,10 @@ def _shared(variant: Variant) -> int:
     return 3 * LANES + WARP * _LEDGER_ROWS + (4 + sums) * WARP * variant.vectors
 
 
-def _lanes() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Node, row of the tip and group of each lane of a warp."""
-    lane = np.arange(WARP)
-    return lane % LANES, lane % LANES + LANES * (lane >= WARP // 2), lane // LANES
-
-
 def _modal_record(modal: Modal, flight: FreeFlight, vectors: int, turns: bool) -> np.ndarray:
-    node, row, group = _lanes()
-    padding = WARP * vectors - modal.n
+    lane, padding = np.arange(WARP), WARP * vectors - modal.n
+    node, group = lane % LANES, lane // LANES
+    row = node + LANES * (lane >= WARP // 2)  # of the tip
 
     def padded(rows: np.ndarray) -> np.ndarray:
         return np.pad(rows, [(0, 0)] * (rows.ndim - 1) + [(0, padding)])
@@ -259,16 +254,14 @@ def _modal_record(modal: Modal, flight: FreeFlight, vectors: int, turns: bool) -
         return padded(blocks.swapaxes(0, 1).reshape(blocks.shape[1], -1))
 
     coefficients = padded(np.array([modal.now - modal.before - 1.0, modal.before, modal.loss, modal.gain]))
-    tip, lane = flat(modal.tip).reshape(2 * LANES, vectors, WARP), np.arange(WARP)
+    tip = flat(modal.tip).reshape(2 * LANES, vectors, WARP)
     slots = [tip[row ^ s, :, lane].T for s in range(2 * LANES)]  # slot s of a lane, see `project`
-    width, half = 2 * LANES, (np.arange(WARP) >> 3) & 1
-    share = width // 2
+    width = 3 * LANES if turns else 2 * LANES
     if turns:
         tilt = flat(modal.further).reshape(LANES, vectors, WARP)
         slots += [tilt[node ^ s, :, lane].T for s in range(LANES)]
-        width, share = 3 * LANES, 3 * LANES // 2
     compliance = modal.compliance.reshape(width, width)
-    response = [compliance[share * half + k, row] for k in range(share)]
+    response = [compliance[width // 2 * (group & 1) + k, row] for k in range(width // 2)]
     if turns:
         response += [compliance[width // 4 * group + k, 2 * LANES + node] for k in range(width // 4)]
     return np.concatenate(

@@ -5,6 +5,7 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
+from stand_in import COARSE
 
 import bladerub as br
 from bladerub.api import map as maps
@@ -18,9 +19,8 @@ from bladerub.study.plan import planned_run
 
 @pytest.fixture
 def on_gpu(tmp_path):
-    mesh = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
     path = tmp_path / "gpu.yaml"
-    path.write_text(f"{mesh}results: results_of_no_workflow\nsolver: {{device: gpu}}\n")
+    path.write_text(f"{COARSE}results: results_of_no_workflow\nsolver: {{device: gpu}}\n")
     return br.load_study(path)
 
 
