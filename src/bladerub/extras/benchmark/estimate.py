@@ -11,6 +11,7 @@
 Not contained are the blade, tables and figures, and what Snakemake itself does.
 """
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -113,9 +114,7 @@ def _is_near_a_peak(blade: ReducedBlade, config: Config, run: StudyRun) -> bool:
 
 def _start(module: str) -> float:
     """CPU time of a process that imports `module`, named below `bladerub`, s."""
-    import resource  # not on every system, where the study does not run either
-
-    usage_before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    before = os.times()
     subprocess.run([sys.executable, "-c", f"import bladerub.{module}"], check=True)
-    usage_after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return usage_after.ru_utime + usage_after.ru_stime - usage_before.ru_utime - usage_before.ru_stime
+    after = os.times()
+    return after.children_user + after.children_system - before.children_user - before.children_system

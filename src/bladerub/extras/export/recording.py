@@ -62,7 +62,7 @@ def record(
     before which no blade may leave the displacement limit. Other parameters, and what is raised, are those of
     `simulate_row`.
     """
-    _, seats, simulation, _ = set_up_row(blade, spec, row)
+    _, seats, simulation = set_up_row(blade, spec, row)
     n_elements, end = spec.coating.n_elements, instants[-1]
     stops, wear = set(instants), []
     motions: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in seats]

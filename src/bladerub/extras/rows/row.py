@@ -89,10 +89,10 @@ def simulate_row(
     meet, a blade is so long that it touches all around the casing, or the disk couples modes that the scheme
     does not resolve, that are too fast for its impulses or that it makes unstable.
     """
-    modes, seats, simulation, begins = set_up_row(blade, spec, row)
+    modes, seats, simulation = set_up_row(blade, spec, row)
     stored = partial(_stored, row, modes, seats)
     initial = stored()
-    _march(spec, seats, simulation, begins, progress)
+    _march(spec, seats, simulation, progress)
     results = tuple(
         run_result(blade, seat.spec, seat.rule, seat.simulation, seat.history, seat.initial) for seat in seats
     )
@@ -123,7 +123,6 @@ class RowSetUp(NamedTuple):
     modes: Modes  # of the nominal blade
     seats: "list[_Seat]"
     simulation: RowSimulation
-    begins: list[int]  # elements that pass before each blade moves
 
 
 def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
@@ -142,7 +141,7 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
     simulation = kernel.RowSimulation(
         [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling, rests
     )
-    return RowSetUp(modes, seats, simulation, begins)
+    return RowSetUp(modes, seats, simulation)
 
 
 def coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray) -> np.ndarray:
@@ -253,11 +252,10 @@ def _march(
     spec: RunSpec,
     seats: Sequence[_Seat],
     simulation: RowSimulation,
-    begins: Sequence[int],
     progress: Callable[[int], None] | None,
 ) -> None:
     """Integrate all blades revolution by revolution, to the end or to that of one of them."""
-    n_elements = spec.coating.n_elements
+    n_elements, begins = spec.coating.n_elements, simulation.begins.tolist()
     for revolution in range(spec.revolutions):
         displacement = np.full((len(seats), n_elements), np.nan)
         travel, blade_progress = simulation.advance(displacement, revolution * n_elements)
