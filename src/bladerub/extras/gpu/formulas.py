@@ -78,6 +78,7 @@ class _Translation:
 
     def __init__(self, function: Callable, definition: ast.stmt):
         self.function, self.body = function, definition
+        self.arguments = [argument.arg for argument in definition.args.args]
         self.assigned: set[str] = set()
 
     def callees(self) -> list[Callable]:
@@ -92,9 +93,7 @@ class _Translation:
 
     def text(self) -> str:
         """Translate the function."""
-        arguments = ", ".join(
-            f"const {_RECORDS.get(argument.arg, 'real')}& {argument.arg}" for argument in self.body.args.args
-        )
+        arguments = ", ".join(f"const {_RECORDS.get(name, 'real')}& {name}" for name in self.arguments)
         statements = [statement for statement in self.body.body if not self._is_docstring(statement)]
         lines = "".join(f"  {self._statement(statement)}\n" for statement in statements)
         kind = "Pair" if isinstance(statements[-1].value, ast.Tuple) else "real"
@@ -127,7 +126,7 @@ class _Translation:
 
     def _expression(self, node: ast.expr) -> str:
         match node:
-            case ast.Name(name) if name in self.assigned or self._is_argument(name):
+            case ast.Name(name) if name in self.assigned or name in self.arguments:
                 return name
             case ast.Name(name) if isinstance(self.function.__globals__.get(name), int | float):
                 return repr(float(self.function.__globals__[name]))
@@ -146,9 +145,6 @@ class _Translation:
             case ast.Call(ast.Name(name), arguments, []):
                 return f"{_NAMES.get(name, name)}({', '.join(map(self._expression, arguments))})"
         raise self._unknown(node)
-
-    def _is_argument(self, name: str) -> bool:
-        return name in {argument.arg for argument in self.body.args.args}
 
     def _unknown(self, node: ast.AST) -> ValueError:
         text = ast.unparse(node)

@@ -1,6 +1,7 @@
 """Response of a coating on one engine order, by runs made when they are asked for."""
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -47,19 +48,16 @@ def amplitude_on(order: float, run: RunResult | Motion, analysis: Analysis) -> f
     return float(amplitude[window].max())
 
 
+@dataclass
 class Response:
     """Response of `case` on an engine order; each run of the study is simulated after a `change`."""
 
-    def __init__(
-        self,
-        blade: ReducedBlade,
-        config: Config,
-        case: CoatingCase,
-        order: float,
-        change: Callable[[RunSpec], RunSpec] = lambda spec: spec,
-    ):
-        self.blade, self.config, self.case, self.order, self.change = blade, config, case, order, change
-        self.runs: dict[float, RunResult] = {}
+    blade: ReducedBlade
+    config: Config
+    case: CoatingCase
+    order: float
+    change: Callable[[RunSpec], RunSpec]
+    runs: dict[float, RunResult] = field(default_factory=dict)  # by speed
 
     def run(self, f_omega: float) -> RunResult:
         """Return the run at `f_omega`."""
