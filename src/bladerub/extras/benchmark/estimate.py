@@ -24,7 +24,7 @@ import numpy as np
 
 from bladerub import plugins
 from bladerub.blade.model import ReducedBlade
-from bladerub.extras.benchmark.machine import cores as cores_here
+from bladerub.extras.benchmark.record import cores as cores_here
 from bladerub.extras.study_runs import StudyRun, study_runs
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config

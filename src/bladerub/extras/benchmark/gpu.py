@@ -11,7 +11,7 @@ import pandas as pd
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
-from bladerub.extras.benchmark import machine
+from bladerub.extras.benchmark import record
 from bladerub.extras.gpu.batch import Device
 from bladerub.extras.gpu.many import LeftOut, simulate_many
 from bladerub.extras.study_runs import study_runs
@@ -79,10 +79,10 @@ def compare(
         result = simulate(blade, described[number])
         return measures(result), time.thread_time() - start
 
-    cpu_runs = dict(each_done(timed_run, numbers, machine.cores()))
+    cpu_runs = dict(each_done(timed_run, numbers, record.cores()))
     steps = sum(run.n_steps for run in gpu_measures.values())
     return {
-        **{name: machine.describe()[name] for name in ("processor", "cores")},
+        **{name: record.describe()[name] for name in ("processor", "cores")},
         "gpu_runs": len(described),
         "handed_over": sum(left_out.runs for left_out in notices),
         "kernel_s": sum(kernel),

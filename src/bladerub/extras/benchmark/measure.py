@@ -19,7 +19,7 @@ from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.benchmark import machine, plain
+from bladerub.extras.benchmark import plain, record
 from bladerub.extras.benchmark.estimate import estimate
 from bladerub.numerics.vectors import LANES, broadcast, lane_sum
 from bladerub.settings.study import Config
@@ -84,11 +84,11 @@ def benchmark(
                 }
             )
     progress("timing runs drawn from the study")
-    study = estimate(blade, config, cores or machine.cores())
+    study = estimate(blade, config, cores or record.cores())
     median = statistics.median
     flops = {name: useful_flops(blade, spec) for name, spec in specs.items()}
     return {
-        **machine.describe(),
+        **record.describe(),
         "rounds": rounds,
         "modes": set_up(blade, touching)[0].omega.size,
         "contact_share": share,
