@@ -50,8 +50,8 @@ def add_to(commands: Any) -> None:
     for name, key in key_of(settings.Source).fields().items():
         if name not in _PLACES:
             option, text = f"--{name.replace('_', '-')}", key.description.replace("%", "%%")
-            kind = float if key.kind == "a number" else None
-            parser.option(option, text, kind, choices=key.choices or None)
+            kind, metavar = (float, key.unit.name) if key.kind == "a number" else (None, None)
+            parser.option(option, text, kind, choices=key.choices or None, metavar=metavar)
 
 
 def import_blade(options: argparse.Namespace) -> None:
