@@ -1,3 +1,4 @@
+import tomllib
 from collections import defaultdict
 from pathlib import Path
 
@@ -15,3 +16,8 @@ def test_no_passage_of_the_sources_is_there_twice():
             passage = tuple(line for _, line in numbered[first : first + LONGEST + 1])
             places[passage].append(f"{path.relative_to(ROOT)}:{numbered[first][0]}")
     assert [repeated for repeated in places.values() if len(repeated) > 1] == []
+
+
+def test_the_faults_of_the_mutation_list_can_be_put_in():
+    faults = tomllib.loads((ROOT / ".ci" / "mutation" / "named.toml").read_text(encoding="utf-8"))["fault"]
+    assert {f["name"] for f in faults if (ROOT / f["file"]).read_text().count(f["before"]) != 1} == set()

@@ -117,5 +117,4 @@ def test_imports_are_followed_within_the_subpackages_of_the_modules(tmp_path, mo
         (["io.atomic"], ["io/atomic.py"]),
     ):
         assert sources.files_behind(*modules) == [f"src/bladerub/{name}" for name in behind]
-    # what is imported within a function is needed only there
     assert sources.extras_behind("from bladerub.extras.a import z\n") == {"a", "b"}
