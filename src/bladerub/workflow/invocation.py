@@ -17,7 +17,6 @@ from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
 from bladerub.io.folders import CONFIG, ROOT, provide_for_unknown_user
 from bladerub.io.garbage import collect_seldom
 from bladerub.io.sources import extras_behind
-from bladerub.plugins import EXTRAS
 from bladerub.settings.study import Config
 from bladerub.study.manifest import ManifestRow, Row, listed_files
 
@@ -52,7 +51,7 @@ def rules_of_studies(repository: Path) -> tuple[list[Path], list[str]]:
     That is one whose rules, scripts or the modules that these import need a folder of `bladerub.extras` that
     was deleted.
     """
-    present = {path.stem for path in EXTRAS.glob("*") if path.is_dir() or path.suffix == ".py"}
+    present = {path.stem for path in plugins.EXTRAS.glob("*") if path.is_dir() or path.suffix == ".py"}
     complete, notes = [], []
     for rules in sorted(repository.glob("studies/*/rules.smk")):
         code = [path.read_text(encoding="utf-8") for path in (rules, *rules.parent.glob("scripts/*.py"))]

@@ -9,14 +9,11 @@ import pandas as pd
 from bladerub.extras.variations import identification as summary
 from bladerub.extras.variations import waves
 from bladerub.extras.variations.emulator import emulators
-from bladerub.extras.variations.implausibility import wide
-from bladerub.extras.variations.job import QUANTITIES
-from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import read
 from bladerub.workflow import outputs
 
 plan, wave = read("identification", snakemake.params.plan), int(snakemake.wildcards.wave)
-measured = wide(read_jobs(snakemake.input.quantities, QUANTITIES))
+measured = summary.measured(snakemake.input.quantities)
 positions = waves.read(snakemake.input.sets).loc[measured.index].to_numpy()
 emulated = emulators(positions, measured)
 remaining = waves.remaining(plan, emulated)

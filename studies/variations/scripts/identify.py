@@ -7,15 +7,14 @@ job.log_to(snakemake.log[0])
 from bladerub.extras.variations import candidates, waves
 from bladerub.extras.variations import identification as summary
 from bladerub.extras.variations.figures import identification as draw
-from bladerub.extras.variations.implausibility import wide
-from bladerub.extras.variations.job import QUANTITIES, VERDICTS
+from bladerub.extras.variations.job import VERDICTS
 from bladerub.extras.variations.job import read as joined
 from bladerub.extras.variations.plan import read
 from bladerub.io import tables
 from bladerub.workflow import outputs
 
 plan, inputs = read("identification", snakemake.input.plan), snakemake.input
-measured = wide(joined(inputs.quantities, QUANTITIES))
+measured = summary.measured(inputs.quantities)
 verdicts = joined(inputs.verdicts, VERDICTS)
 of_candidates = candidates.verdicts(plan, joined(inputs.judged, VERDICTS))
 candidate_rows = tables.read(inputs.candidates)

@@ -1,13 +1,16 @@
 """Tables of an identification: sets, what the waves leave, targets, claims that exclude each other."""
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from bladerub.extras.variations.emulator import Emulator, Predicted, compared, held_out
-from bladerub.extras.variations.implausibility import CUTOFF, of_simulated
+from bladerub.extras.variations.implausibility import CUTOFF, of_simulated, wide
+from bladerub.extras.variations.job import QUANTITIES
+from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
 from bladerub.extras.variations.waves import Remaining, as_table, with_values
@@ -25,6 +28,11 @@ of the volume that the target alone leaves."""
 
 _RARE = 0.05  # a claim that holds in fewer sets says nothing about which others it goes with
 _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusion
+
+
+def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Read the targets of all jobs: a row for each set, a column for each target, in their order."""
+    return wide(read_jobs(paths, QUANTITIES))
 
 
 def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame:
