@@ -16,8 +16,15 @@ from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.motion import motion
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence
 from bladerub.contact.spec import PLASTIC, ElementLaw, RunSpec
-from bladerub.contact.start import ALONE, Seat, by_lane_of, deflect, tip_record
-from bladerub.contact.stator import force_direction, stator_record
+from bladerub.contact.start import (
+    ALONE,
+    Seat,
+    by_lane_of,
+    deflect,
+    force_direction,
+    stator_record,
+    tip_record,
+)
 from bladerub.contact.steps import own_steps, steps_per_element, with_steps
 from bladerub.contact.strips import element_area, element_passage
 from bladerub.contact.tip import edge
@@ -56,7 +63,7 @@ def set_up_modes(
     flight = kernel("free_flight").free_flight(rule, leap, slope, edge(tip))
     layer = None
     if hasattr(law, "Layer"):
-        area = by_lane_of(blade)(element_area(blade, spec))
+        area = by_lane_of(modes.n_nodes)(element_area(blade, spec))
         layer = law.Layer(law, coating, area, passage * coating.n_elements)
     simulation = kernel("loop").Simulation
     return rule, simulation(kernel("modal").pack(rule), flight, stator, tip, state, n_steps, layer)

@@ -8,8 +8,7 @@ import scipy.linalg
 from stand_in import made_blade
 
 from bladerub.contact import setup
-from bladerub.contact.start import SEARCH_RANGE, Seat, tip_record
-from bladerub.contact.stator import minimum_gap
+from bladerub.contact.start import SEARCH_RANGE, Seat, minimum_gap, tip_record
 from bladerub.contact.strips import by_angle
 
 N = 200

@@ -10,8 +10,7 @@ from bladerub.contact.kernel import gauss_seidel, newton, records
 from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import modes_at
 from bladerub.contact.schemes import SCHEMES, Contact
-from bladerub.contact.start import tip_record
-from bladerub.contact.stator import stator_record
+from bladerub.contact.start import stator_record, tip_record
 from bladerub.numerics.memory import addresses
 from bladerub.numerics.vectors import LANES
 
