@@ -14,7 +14,6 @@ from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 
 
-@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None) -> RunResult:
     """Simulate the contact of a blade with the coating at one constant speed.
 
@@ -32,10 +31,10 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     revolutions done after each of them. What was computed until a displacement exceeded the limit is kept.
     Raises `ValueError` if the speed is outside the range of the blade, or the step too long for the scheme.
     """
-    return _Run(blade, spec).integrate(spec.revolutions, progress)
+    return simulate_longer(blade, spec, lambda result: 0, progress)[0]
 
 
-@threadpool_limits.wrap(limits=1, user_api="blas")
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def simulate_longer(
     blade: ReducedBlade,
     spec: RunSpec,
@@ -46,29 +45,22 @@ def simulate_longer(
 
     Returns the run, then the longer one if there is, which is that from rest to the last bit.
     """
-    run = _Run(blade, spec)
-    results = [run.integrate(spec.revolutions, progress)]
+    rule, simulation = set_up(blade, spec)
+    initial, n_elements = sum(energy.blade_energy(rule, simulation.state)), spec.coating.n_elements
+    history = History(0, n_elements)
+
+    def result_after(revolutions: int) -> RunResult:
+        done = len(history.displacement)
+        history.extend(revolutions)
+        integrate(
+            (Segment(simulation, n, 0, n_elements) for n in range(done, revolutions)), history, progress
+        )
+        return run_result(blade, spec, rule, simulation, history, initial)
+
+    results = [result_after(spec.revolutions)]
     if revolutions := longer(results[0]):
-        results.append(run.integrate(revolutions, progress))
+        results.append(result_after(revolutions))
     return results
-
-
-class _Run:
-    """A run, integrated as far as it was asked for."""
-
-    def __init__(self, blade: ReducedBlade, spec: RunSpec):
-        self.blade, self.spec = blade, spec
-        self.rule, self.simulation = set_up(blade, spec)
-        self.initial = sum(energy.blade_energy(self.rule, self.simulation.state))
-        self.history = History(0, spec.coating.n_elements)
-
-    def integrate(self, revolutions: int, progress: Callable[[int], None] | None) -> RunResult:
-        """Integrate up to the end of so many revolutions."""
-        n_elements, done = self.spec.coating.n_elements, len(self.history.displacement)
-        self.history.extend(revolutions)
-        segments = (Segment(self.simulation, n, 0, n_elements) for n in range(done, revolutions))
-        integrate(segments, self.history, progress)
-        return run_result(self.blade, self.spec, self.rule, self.simulation, self.history, self.initial)
 
 
 def run_result(
