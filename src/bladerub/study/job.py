@@ -58,11 +58,7 @@ _Longer = Callable[[PlannedRun, _End], PlannedRun | None]  # plans the longer ru
 class _RunFile(NamedTuple):
     """A run that is in its file."""
 
-    key: str
-    bytes: int
-    checksum: str
-    unconverged_steps: int
-    energy_residual: float
+    row: ManifestRow  # without the longer run
     end: _End
 
 
@@ -94,8 +90,7 @@ def compute_missing(
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
         files = job.complete(folder, plan.runs, missing_longer)
         files |= job.complete(folder, job.not_begun({file: each.end for file, each in files.items()}))
-        key = growth_key(config)
-        return [_row(run, files[run.file], files.get(longer_file(run)), key) for run in plan.runs]
+        return [_row(files[run.file], files.get(longer_file(run))) for run in plan.runs]
 
 
 def compute_all(
@@ -146,25 +141,14 @@ def compute(
     return stored_run(case, run.spec, result, key, analysis, run.keep_history)
 
 
-def _row(run: PlannedRun, run_file: _RunFile, longer: _RunFile | None, growth_key: str) -> ManifestRow:
-    return ManifestRow(
-        file=run.file,
-        f_omega=run.spec.f_omega,
-        run_key=run_file.key,
-        status=run_file.end.status,
-        bytes=run_file.bytes,
-        confirmation_key=longer.key if longer else "",
-        confirmation_bytes=longer.bytes if longer else 0,
-        checksum=run_file.checksum,
-        confirmation_checksum=longer.checksum if longer else "",
-        unconverged_steps=run_file.unconverged_steps,
-        growth_key=growth_key,
-        energy_residual=run_file.energy_residual,
+def _row(run_file: _RunFile, longer: _RunFile | None) -> ManifestRow:
+    if longer is None:
+        return run_file.row
+    return run_file.row._replace(
+        confirmation_key=longer.row.run_key,
+        confirmation_bytes=longer.row.bytes,
+        confirmation_checksum=longer.row.checksum,
     )
-
-
-def _none(run: PlannedRun, end: _End) -> None:
-    """Plan no longer run."""
 
 
 @dataclass(frozen=True)
@@ -193,7 +177,7 @@ class _Job:
         return Entry(folder / run.file, run.key(self.blade_digest), MAPPED)
 
     def complete(
-        self, folder: Path, runs: Sequence[PlannedRun], longer: _Longer = _none
+        self, folder: Path, runs: Sequence[PlannedRun], longer: _Longer = lambda run, end: None
     ) -> dict[str, _RunFile]:
         """Compute what is missing or stale of `runs`, and their `longer` ones; return all by file."""
         entries = {run.file: self.entry(folder, run) for run in runs}
@@ -206,7 +190,7 @@ class _Job:
         for number, (run, stored, seconds) in enumerate(computed, 1):
             entry = self.entry(folder, run)
             entry.make_room()
-            run_files[run.file] = _run_file(entry, stored, write_run(entry.path, stored, origin))
+            run_files[run.file] = self.run_file(run, entry, stored, write_run(entry.path, stored, origin))
             if run.file in missing:
                 cost_done += 1 / run.spec.f_omega
                 cost_left -= 1 / run.spec.f_omega
@@ -215,16 +199,31 @@ class _Job:
             seconds_left = (time.monotonic() - start) * max(cost_left, 0.0) / cost_done
             status = stored.attributes["status"]
             self.report(RunDone(number, total, run.file, status, seconds, seconds_left))
-        for file in entries.keys() - run_files.keys():
-            path = entries[file].path
-            run = read_run(
-                path, {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"}
-            )
-            run_files[file] = _run_file(entries[file], run, file_checksum(path))
+        listed = {"status", "n_unconverged_steps", "energy_residual"}
+        for run in runs:
+            if run.file not in run_files:
+                entry = entries[run.file]
+                stored = read_run(entry.path, {"revolution_amplitude"}, listed)
+                run_files[run.file] = self.run_file(run, entry, stored, file_checksum(entry.path))
         return run_files
 
+    def run_file(self, run: PlannedRun, entry: Entry, stored: StoredRun, checksum: str) -> _RunFile:
+        """Describe the file of a run, as its manifest lists it."""
+        row = ManifestRow(
+            file=run.file,
+            f_omega=run.spec.f_omega,
+            run_key=entry.key,
+            status=stored.attributes["status"],
+            bytes=entry.path.stat().st_size,
+            checksum=checksum,
+            unconverged_steps=int(stored.attributes["n_unconverged_steps"]),
+            growth_key=growth_key(self.config),
+            energy_residual=float(stored.attributes["energy_residual"]),
+        )
+        return _RunFile(row, _end(stored))
+
     def computed(
-        self, runs: Sequence[PlannedRun], longer: _Longer = _none
+        self, runs: Sequence[PlannedRun], longer: _Longer = lambda run, end: None
     ) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
         """Yield each run as it is done, and the seconds that it took; rows last.
 
@@ -253,18 +252,6 @@ class _Job:
         rows_of_blades = [run for run in runs if run.row]
         for run, (stored, seconds) in each_done(compute_row, rows_of_blades, self.threads):
             yield run, stored, seconds
-
-
-def _run_file(entry: Entry, run: StoredRun, checksum: str) -> _RunFile:
-    of_run = run.attributes
-    return _RunFile(
-        key=entry.key,
-        bytes=entry.path.stat().st_size,
-        checksum=checksum,
-        unconverged_steps=int(of_run["n_unconverged_steps"]),
-        energy_residual=float(of_run["energy_residual"]),
-        end=_end(run),
-    )
 
 
 def _end(run: StoredRun) -> _End:
