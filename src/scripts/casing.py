@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.tip import tip_radius
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
@@ -25,7 +24,7 @@ casings[" + ".join(map(str, diameters)) or "measured"] = combined
 angle = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casings.items()}
 
-radius = tip_radius(read_reduced_blade(snakemake.input.blade))
+radius = read_reduced_blade(snakemake.input.blade).tip_radius
 kind = " bumps" if combined.bump_width else " nodal diameters" if diameters else ""
 curves = {f"{name}{kind}": u for name, u in inward.items()}
 magnification = min(MOST_MAGNIFIED, float(f"{LARGEST * radius / combined.amplitude:.1g}"))

@@ -11,7 +11,6 @@ from dataclasses import replace
 
 import pandas as pd
 
-from bladerub.blade.tip import tip_radius
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.illustration import pressed_elements
 from bladerub.contact.spec import PLASTIC, Coating, TipProfile
@@ -24,7 +23,7 @@ REACH = 6  # elements shown on each side of the node
 scene = pressed_elements(
     replace(Coating(**snakemake.params.coating), element_law=PLASTIC),
     TipProfile(**snakemake.params.tip),
-    tip_radius(read_reduced_blade(snakemake.input.blade)),
+    read_reduced_blade(snakemake.input.blade).tip_radius,
     DEPTH,
     REACH,
 )

@@ -79,6 +79,14 @@ class ReducedBlade:
         return len(self.node_position)
 
     @property
+    def tip_radius(self) -> float:
+        """Mean distance of the interface nodes from the axis of rotation at rest, m.
+
+        It is the radius at which the casing is drawn. In contact every node has its own.
+        """
+        return float(np.hypot(self.node_position[:, 1], self.node_position[:, 2]).mean())
+
+    @property
     def arrays(self) -> dict[str, np.ndarray]:
         """Matrices and vectors by name; `stiffness_higher` are ``stiffness_3``, ``stiffness_4`` ..."""
         higher = {f"stiffness_{power}": matrix for power, matrix in enumerate(self.stiffness_higher, 3)}

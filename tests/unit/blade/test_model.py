@@ -10,7 +10,6 @@ from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.mesh import BladeMesh, NodeCloud
 from bladerub.blade.model import write_reduced_blade
 from bladerub.blade.reduction import directions
-from bladerub.blade.tip import tip_radius
 from bladerub.blade.tip_slope import tip_slope
 from bladerub.blade.validation import read_reduced_blade, read_valid_blade
 from bladerub.io.errors import DamagedFile
@@ -56,7 +55,7 @@ def test_reduced_frequencies_are_those_of_the_oscillators(oscillators):
 
 def test_the_radius_of_the_tip_is_the_distance_from_the_axis(blade):
     moved = dataclasses.replace(blade, node_position=blade.node_position + np.array([1.0, 0.0, 0.0]))
-    assert tip_radius(moved) == pytest.approx(0.65)
+    assert moved.tip_radius == pytest.approx(0.65)
 
 
 def test_turn_about_the_axis_of_rotation_has_its_angle_as_slope():

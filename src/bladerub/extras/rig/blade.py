@@ -18,14 +18,12 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.tip import tip_radius
 from bladerub.contact import energy
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Casing, RunSpec, TipProfile
-from bladerub.contact.start import SEARCH_RANGE
-from bladerub.contact.stator import minimum_gap
+from bladerub.contact.start import SEARCH_RANGE, minimum_gap
 from bladerub.contact.strips import by_angle, strip_width
 from bladerub.extras.rig.passes import COLUMNS as RIGID_COLUMNS
 from bladerub.extras.rig.spec import Rig
@@ -59,7 +57,7 @@ def simulate_blade_passes(
     speed, its tip leaves the displacement limit, a tenth of its length, or a parameter of the law is out of
     its range.
     """
-    rig = replace(rig, track=2 * math.pi * tip_radius(blade), tip_width=float(strip_width(blade).sum()))
+    rig = replace(rig, track=2 * math.pi * blade.tip_radius, tip_width=float(strip_width(blade).sum()))
     f_omega = rig.speed / rig.track / blade.f1_hz
     if disk_turns:
         at_rest = {"stiffness_1": 0.0 * blade.stiffness_1, "stiffness_2": 0.0 * blade.stiffness_2}

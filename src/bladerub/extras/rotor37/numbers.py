@@ -7,7 +7,6 @@ import pandas as pd
 
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.tip import tip_radius
 from bladerub.contact.result import RunResult
 from bladerub.extras.blades.similarity import tip_stiffness
 from bladerub.settings.study import Config
@@ -34,7 +33,7 @@ def of_blade(config: Config, blade: ReducedBlade) -> pd.DataFrame:
         frequencies = reduced_frequencies(blade, f_omega, _N_FREQUENCIES)
         rows += [(f"f{mode}_{place}", f, "Hz") for mode, f in enumerate(frequencies, 1)]
     rows += [
-        ("tip_radius", tip_radius(blade), "m"),
+        ("tip_radius", blade.tip_radius, "m"),
         ("tip_stiffness", tip_stiffness(blade), "N/m"),
         ("lean_leading_edge", lean[0], "1"),
         ("lean_trailing_edge", lean[-1], "1"),

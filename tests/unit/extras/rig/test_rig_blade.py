@@ -6,7 +6,6 @@ import pytest
 import yaml
 
 from bladerub import plugins
-from bladerub.blade.tip import tip_radius
 from bladerub.config.errors import ConfigError
 from bladerub.contact.spec import PLASTIC
 from bladerub.contact.strips import strip_width
@@ -75,7 +74,7 @@ AS_RIGID += ["worn_depth", "pass_wear", "pass_energy", "temperature_rise"]
 @pytest.fixture
 def rig(blade):
     tip = {"tip_width": float(strip_width(blade).sum()), "tip_length": 8e-3, "edge_drop": 5e-6}
-    track = {"track": 2 * np.pi * tip_radius(blade), "speed": 150.0, "incursion": 1e-5, "coated": 0.1}
+    track = {"track": 2 * np.pi * blade.tip_radius, "speed": 150.0, "incursion": 1e-5, "coated": 0.1}
     return Rig("a blade", 600e6, 300e6, 1e5, 3e-3, passes=3, theta=0.2, **tip, **track)
 
 
