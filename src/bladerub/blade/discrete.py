@@ -9,9 +9,8 @@ from scipy import sparse
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.elasticity import Solid
-from bladerub.blade.linear import Solve, factorise, lowest_modes
+from bladerub.blade.linear import PreconditionedCG, Solve, factorise, lowest_modes
 from bladerub.blade.mesh import FreeCoordinates, MeshedBlade
-from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.rotation import equilibrium
 from bladerub.settings.blade import Material
 
@@ -23,7 +22,7 @@ class DiscreteBlade:
     """Small motions of a blade about its equilibrium at several normalised speeds.
 
     `at_rest` is not there for a blade given by matrices: the factored stiffness at rest preconditions the
-    solutions at speed (`bladerub.blade.preconditioned_cg`), where `stiffness` then has the same pattern.
+    solutions at speed (`bladerub.blade.linear`), where `stiffness` then has the same pattern.
     """
 
     layout: MeshedBlade

@@ -14,9 +14,8 @@ from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
-from bladerub.blade.linear import Solve, factorise, lowest_modes
+from bladerub.blade.linear import PreconditionedCG, Solve, factorise, lowest_modes
 from bladerub.blade.model import ReducedBlade, stiffness_at
-from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.tip_slope import tip_slope
 from bladerub.settings.blade import BladeSpec
 

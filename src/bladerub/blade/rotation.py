@@ -6,8 +6,7 @@ import numpy as np
 from scipy import sparse
 
 from bladerub.blade.elasticity import Solid
-from bladerub.blade.linear import Solve, factorise
-from bladerub.blade.preconditioned_cg import PreconditionedCG
+from bladerub.blade.linear import PreconditionedCG, Solve, factorise
 from bladerub.io.errors import BadInput
 
 TOLERANCE = 1e-9  # largest residual force accepted, over the norm of the centrifugal load

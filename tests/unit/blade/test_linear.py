@@ -6,8 +6,7 @@ from scipy import sparse
 from scipy.linalg import eigh
 
 from bladerub.blade import linear
-from bladerub.blade.linear import factorise, lowest_modes
-from bladerub.blade.preconditioned_cg import PreconditionedCG
+from bladerub.blade.linear import PreconditionedCG, factorise, lowest_modes
 
 
 @pytest.fixture
