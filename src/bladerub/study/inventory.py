@@ -66,8 +66,8 @@ class _RunSummary(NamedTuple):
 
     key: str
     status: str
-    unconverged: bool
-    unbalanced: bool
+    unconverged_steps: int
+    energy_residual: float
     grows: bool  # so that it needs a longer run
 
 
@@ -118,8 +118,8 @@ def take(
         if summary is None or state != "done":
             continue
         counts["unbounded"] += summary.status == "unbounded"
-        counts["unconverged"] += summary.unconverged
-        counts["unbalanced"] += summary.unbalanced
+        counts["unconverged"] += summary.unconverged_steps > 0
+        counts["unbalanced"] += not summary.energy_residual <= UNBALANCED
         if run.follow and summary.grows:
             counts["longer_planned"] += 1
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"
@@ -139,22 +139,17 @@ def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[
     for row in read_manifest(manifest) if manifest in sizes else ():
         if row.growth_key != growth_key:
             continue
-        files = row.files(manifest.parent)
-        keys = (row.run_key, row.confirmation_key)
-        for file, key in zip(files, keys, strict=False):
+        files, outcome = row.files(manifest.parent), (row.status, row.unconverged_steps, row.energy_residual)
+        for file, key in zip(files, (row.run_key, row.confirmation_key), strict=False):
             if sizes.get(file.path) == file.bytes:
-                unconverged, unbalanced = row.unconverged_steps > 0, not row.energy_residual <= UNBALANCED
-                summaries[file.path] = _RunSummary(key, row.status, unconverged, unbalanced, len(files) > 1)
+                summaries[file.path] = _RunSummary(key, *outcome, grows=len(files) > 1)
     return summaries
 
 
 def _read(path: Path, settings: Divergence, thorough: bool) -> _RunSummary:
     """Read the run at `path`, wholly if `thorough`."""
     stored = read_run(path, None if thorough else {"revolution_amplitude"})
-    attributes = stored.attributes
-    grows = needs_confirmation(stored.data["revolution_amplitude"], attributes["status"], settings)
-    unconverged, unbalanced = (
-        attributes["n_unconverged_steps"] > 0,
-        not attributes["energy_residual"] <= UNBALANCED,
-    )
-    return _RunSummary(attributes["run_key"], attributes["status"], unconverged, unbalanced, grows)
+    names = ("run_key", "status", "n_unconverged_steps", "energy_residual")
+    key, status, unconverged_steps, residual = (stored.attributes[name] for name in names)
+    grows = needs_confirmation(stored.data["revolution_amplitude"], status, settings)
+    return _RunSummary(key, status, unconverged_steps, residual, grows)
