@@ -18,14 +18,10 @@ from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow, confirmation_path
-from bladerub.study.store import MAPPED, StoredRun, read_run
+from bladerub.study.store import HALF_RANGE, LARGEST, MAPPED, StoredRun, read_run
 from bladerub.study.wear import dominant_harmonic, lobes
 
-_RADIAL = "the radial displacement of node 1"
-_LARGEST = "largest absolute radial displacement of node 1 in each revolution"
-_HALF_RANGE = f"half the range of {_RADIAL} in each revolution"
 _LONGER = "confirmation_revolution_number"
-
 _STRONGEST = "harmonic of the casing angle strongest in the worn depth"
 DERIVED = {
     "wear_harmonic": (("f_omega",), "1", f"{_STRONGEST}; 0: no wear"),
@@ -51,11 +47,13 @@ class CoatingMap(Comparable):
         np.ndarray | None, ("f_omega", "node", "angle"), "m", "worn depth under each interface node"
     ]
     spectrum_order: Annotated[np.ndarray, ("spectrum_order",), "1", "engine order"]
-    spectrum_amplitude: Annotated[np.ndarray, ("f_omega", "spectrum_order"), "m", f"amplitude of {_RADIAL}"]
-    revolution_peak: Annotated[np.ndarray, ("f_omega", "revolution_number"), "m", _LARGEST]
-    revolution_amplitude: Annotated[np.ndarray, ("f_omega", "revolution_number"), "m", _HALF_RANGE]
+    spectrum_amplitude: Annotated[
+        np.ndarray, ("f_omega", "spectrum_order"), "m", "amplitude of the radial displacement of node 1"
+    ]
+    revolution_peak: Annotated[np.ndarray, ("f_omega", "revolution_number"), "m", LARGEST]
+    revolution_amplitude: Annotated[np.ndarray, ("f_omega", "revolution_number"), "m", HALF_RANGE]
     confirmation_amplitude: Annotated[
-        np.ndarray, ("f_omega", _LONGER), "m", f"{_HALF_RANGE} of the longer run"
+        np.ndarray, ("f_omega", _LONGER), "m", f"{HALF_RANGE} of the longer run"
     ]
     max_wear: Annotated[np.ndarray, ("f_omega",), "m", "greatest worn depth under any node"]
     lobes: Annotated[np.ndarray, ("f_omega",), "1", "number of worn lobes"]

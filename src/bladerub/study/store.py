@@ -19,22 +19,17 @@ from bladerub.settings.analysis import Analysis
 from bladerub.study.grid import CoatingCase
 from bladerub.study.spectra import order_spectrum
 
+LARGEST = "largest absolute radial displacement of node 1 in each revolution"
+HALF_RANGE = "half the range of the radial displacement of node 1 in each revolution"
+
 _DATASETS = {
     "angle": (("angle",), "rad", "casing angle of the element centres"),
     "wear": (("node", "angle"), "m", "permanent shortening of the coating under each interface node"),
     "spectrum_order": (("spectrum_order",), "1", "engine order"),
     "spectrum_amplitude": (("spectrum_order",), "m", "amplitude of the radial displacement of node 1"),
     "revolution_number": (("revolution_number",), "1", "revolution, counted from 1"),
-    "revolution_peak": (
-        ("revolution_number",),
-        "m",
-        "largest absolute radial displacement of node 1 in each revolution",
-    ),
-    "revolution_amplitude": (
-        ("revolution_number",),
-        "m",
-        "half the range of the radial displacement of node 1 in each revolution",
-    ),
+    "revolution_peak": (("revolution_number",), "m", LARGEST),
+    "revolution_amplitude": (("revolution_number",), "m", HALF_RANGE),
     **{f"energy_{name}": ((), "J", long_name) for name, long_name in ENERGIES.items()},
     "revolution": (("revolution",), "1", "time in revolutions from the start"),
     "radial_displacement": (("revolution",), "m", "radial displacement of node 1"),
