@@ -18,7 +18,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
 ``VARIANTS``    what reads laws (``law``), and what imports the time loop again with another law of the
                 coating or for more nodes (``loop``): modules (`bladerub.contact.laws`)
-``MOTIONS``     how the tip may move besides its nodes, by the key of the config (`bladerub.contact.motion`)
+``MOTIONS``     how the tip may move besides its nodes, by the key of the config (`bladerub.contact.laws`)
 ``ROWS``        what computes rows of blades, by the key of the config that describes them
 ``DATASETS``    what a run file may hold besides that of a single blade: a dictionary as of the store
 ``SOLVERS``     what computes runs instead of the processor, by the name in ``solver.device``

@@ -7,7 +7,7 @@ import scipy.linalg
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.motion import motion
+from bladerub.contact.laws import motion
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.once import once
 
@@ -17,7 +17,7 @@ class Modes(NamedTuple):
 
     omega: np.ndarray  # (n,): Natural angular frequencies, ascending, rad/s
     # (2 j, n): Displacement of the tip per unit of each mode: radial at its j nodes, then tangential,
-    # kg^-1/2; (3 j, n) with a further motion (`bladerub.contact.motion`)
+    # kg^-1/2; (3 j, n) with a further motion (`bladerub.contact.laws`)
     tip: np.ndarray
     n_nodes: int  # j
 
@@ -52,7 +52,7 @@ def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.
 def at_tip(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec | None = None) -> np.ndarray:
     """Project reduced coordinates (n, k) on the tip (2 j, k): radial at its j nodes, then tangential.
 
-    In the contact that `spec` describes a further motion may follow (3 j, k), see `bladerub.contact.motion`.
+    In the contact that `spec` describes a further motion may follow (3 j, k), see `bladerub.contact.laws`.
     """
     interface = coordinates[: 3 * blade.n_interface].reshape(blade.n_interface, 3, -1)
     radial = np.einsum("ja,jan->jn", blade.radial_direction, interface)

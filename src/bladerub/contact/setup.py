@@ -11,9 +11,8 @@ from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import MOST_STEPS
 from bladerub.contact.kernel.loop import Simulation
-from bladerub.contact.laws import element_parameters, module_for, module_of
+from bladerub.contact.laws import element_parameters, module_for, module_of, motion
 from bladerub.contact.modes import Modes, modes_at
-from bladerub.contact.motion import motion
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence
 from bladerub.contact.spec import PLASTIC, ElementLaw, RunSpec
 from bladerub.contact.start import (

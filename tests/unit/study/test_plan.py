@@ -67,7 +67,7 @@ def test_what_else_shapes_the_file_changes_the_key(key, config, monkeypatch):
 def test_the_code_of_a_motion_is_part_of_the_key_of_runs_that_have_it_alone(key, spec, monkeypatch):
     turning = dataclasses.replace(spec, tip=dataclasses.replace(spec.tip, turns=True))
     before = key(), key(turning)
-    monkeypatch.setattr("bladerub.contact.motion.digest_behind", lambda *modules: "other")
+    monkeypatch.setattr("bladerub.contact.laws.digest_behind", lambda *modules: "other")
     assert (key(), key(turning) != before[1]) == (before[0], True)
 
 

@@ -1,7 +1,7 @@
 """The functions of the time loop where the profile of the tip turns with the blade.
 
 Its tilt is a second unknown of each node, and the couple of the elements a second force. Each function takes
-the place of the one that its decorator names (`bladerub.contact.motion`).
+the place of the one that its decorator names (`bladerub.contact.laws`).
 """
 
 import math
