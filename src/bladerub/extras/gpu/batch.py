@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.contact import energy
-from bladerub.contact.integration import History
 from bladerub.contact.kernel import elements, free_flight, newton
 from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import Modal
 from bladerub.contact.laws import module_of, source_of
+from bladerub.contact.run import History
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.extras.gpu import formulas
 from bladerub.numerics.vectors import LANES

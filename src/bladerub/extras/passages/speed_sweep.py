@@ -20,11 +20,11 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.integration import History, Segment, integrate
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.records import COATING
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.result import Outcome
+from bladerub.contact.run import History, Segment, integrate
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up_modes
 from bladerub.contact.spec import RunSpec

@@ -23,12 +23,11 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.integration import History, Segment
 from bladerub.contact.kernel.records import COATING
 from bladerub.contact.laws import module_for
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import Energy, RunResult
-from bladerub.contact.run import run_result
+from bladerub.contact.run import History, Segment, run_result
 from bladerub.contact.setup import fixed_steps, set_up_modes
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.start import Seat

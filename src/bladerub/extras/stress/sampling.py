@@ -14,12 +14,11 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.integration import History, Segment, integrate
 from bladerub.contact.kernel import loop
 from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.result import RunResult
-from bladerub.contact.run import run_result
+from bladerub.contact.run import History, Segment, integrate, run_result
 from bladerub.contact.setup import set_up_modes
 from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
