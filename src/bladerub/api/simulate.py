@@ -14,7 +14,7 @@ from bladerub.study.grid import speed_name
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.job import compute
 from bladerub.study.plan import PlannedRun, longer_run, planned_run
-from bladerub.study.solver import Solve, one_by, row_of, solver_of
+from bladerub.study.solver import Solve, row_of, solver_of
 from bladerub.study.store import StoredRun
 
 
@@ -92,7 +92,7 @@ def simulate(
     """
     blade.check_speed("f_omega", run.f_omega)
     run = run.of_length(blade.length)  # perhaps not the study's own blade
-    row, solver, analysis = row or row_of(run.config), one_by(solver_of(run.config)), run.config.analysis
+    row, solve, analysis = row or row_of(run.config), solver_of(run.config).simulate, run.config.analysis
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
     stressed = _stress_solver(blade, run) if stress else None
@@ -107,15 +107,15 @@ def simulate(
             if each:
                 each(revolutions)
 
-        def computed(planned: PlannedRun, solver: Solve) -> StoredRun:
+        def computed(planned: PlannedRun, solve: Solve) -> StoredRun:
             key = planned.key(blade.digest)
-            return compute(run.case, planned, blade.reduced, key, analysis, report, solver)
+            return compute(run.case, planned, blade.reduced, key, analysis, report, solve)
 
         planned = planned_run(run.config, run.spec, f"{speed_name(run.f_omega)}.h5", True, row)
-        stored, longer = computed(planned, stressed or solver), None
+        stored, longer = computed(planned, stressed or solve), None
         amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
         if follow and needs_confirmation(amplitude, status, analysis.divergence):
-            longer = Run(computed(longer_run(run.config, planned), solver))
+            longer = Run(computed(longer_run(run.config, planned), solve))
     run_stress = stressed.stress if stressed else None
     if run_stress:
         stored = replace(stored, attributes=stored.attributes | run_stress.attributes())

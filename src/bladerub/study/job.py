@@ -20,7 +20,7 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_file, longer_run
-from bladerub.study.solver import Solve, Solver, each_done, one_by, rows, solver_of
+from bladerub.study.solver import Solve, Solver, each_done, rows, solver_of
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_run, write_run
 
 LOCK = ".lock"
@@ -137,7 +137,7 @@ def compute(
     if run.row:
         row = run.row, blade, case, run.spec
         return rows().compute(*row, key, analysis, run.keep_history, progress)
-    result = (solve or one_by(Solver()))(blade, run.spec, progress)
+    result = (solve or Solver().simulate)(blade, run.spec, progress)
     return stored_run(case, run.spec, result, key, analysis, run.keep_history)
 
 

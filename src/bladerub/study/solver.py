@@ -73,6 +73,13 @@ class Solver:
             for result, more in zip(results, np.diff(revolutions, prepend=0), strict=True):
                 yield Solved(number, result, seconds * more / revolutions[-1])
 
+    def simulate(
+        self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None
+    ) -> RunResult:
+        """Compute a single run; parameters and errors are those of `simulate_many`."""
+        (solved,) = self.simulate_many(blade, [spec], progress=progress)
+        return solved.result
+
     def determinants(self) -> dict[str, str]:
         """Name and digest of what determines a run besides `bladerub.contact.sources`, if anything."""
         return {}
@@ -93,16 +100,6 @@ def solver_of(config: Config) -> Solver:
         names = " or ".join(["cpu", *offered])
         raise BadInput(f"solver.device = {name}: this package is without it, must be {names}")
     return plugins.load(offered[name])()
-
-
-def one_by(solver: Solver) -> Solve:
-    """Return what lets a `solver` compute a single run."""
-
-    def solve(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None) -> RunResult:
-        (solved,) = solver.simulate_many(blade, [spec], progress=progress)
-        return solved.result
-
-    return solve
 
 
 def each_done(
