@@ -3,19 +3,9 @@
 import numpy as np
 import pandas as pd
 
+from bladerub.study import paper
 from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, above, below, claim, ratio
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.paper import (
-    CASING,
-    CRITICAL_E,
-    CRITICAL_K,
-    HARDLY,
-    SOFT_HARDENING,
-    SOFTEST,
-    STIFFENING_FROM,
-    STIFFEST,
-    THETA,
-)
 
 _HIGH = ((1.1, 5.0), (0.5, 0.5), (1.5, 1.0))  # other (E, K) with "very high amplitudes" (footnote 8)
 _SECTION = 'section "Local maxima evolution"'
@@ -27,7 +17,7 @@ def greatest(evidence: Evidence, order: int, figure: str) -> Finding:
     """Rank the coatings by height."""
     ranked = _with_critical(evidence, order).stack().dropna().sort_values(ascending=False)
     relative = ranked.map(lambda height: ratio(height, ranked.iloc[0], f"Y{order}"))
-    critical = relative[CRITICAL_K, CRITICAL_E]
+    critical = relative[paper.CRITICAL_K, paper.CRITICAL_E]
     first = [f"({e:g}, {k:g}) at {height:.2f}" for (k, e), height in relative.iloc[:3].items()]
     return Finding(
         claim=f"Y{order} is greatest at (E, K) = (1.1, 0.5) of {ranked.size} cells: first three ({figure})",
@@ -35,7 +25,7 @@ def greatest(evidence: Evidence, order: int, figure: str) -> Finding:
         measured=f"{', '.join(first)}; (1.1, 0.5) at {critical:.2f}",
         unit="1",
         holds=above(critical, 1.0, 0.9)[0],
-        margin=float(critical - relative.drop((CRITICAL_K, CRITICAL_E)).max()),
+        margin=float(critical - relative.drop((paper.CRITICAL_K, paper.CRITICAL_E)).max()),
     )
 
 
@@ -46,7 +36,7 @@ def ridge(evidence: Evidence) -> Finding:
     table = table[table.count(axis=1) >= 2]
     if table.empty:
         raise NotMeasurable("no K with two E or more in the study")
-    share = 100 * float(np.mean(table.idxmax(axis=1) == CRITICAL_E))
+    share = 100 * float(np.mean(table.idxmax(axis=1) == paper.CRITICAL_E))
     text = "Y4 is highest at E = 1.1 for any K: share of the K (Fig. 11)"
     return Finding(text, 100, share, "%", *above(share, 100, 50))
 
@@ -96,7 +86,7 @@ def height_varies(evidence: Evidence, order: int, figure: str) -> Finding:
         ratio(*width_and_height, f"Y{order}") for width_and_height in zip(widths, heights, strict=True)
     )
     text = f"Y{order} hardly varies with E for K <= 0.1: largest range over its mean ({figure})"
-    return Finding(text, "near 0", spread, "1", *below(spread, HARDLY["amplitude"], 0.5))
+    return Finding(text, "near 0", spread, "1", *below(spread, paper.HARDLY["amplitude"], 0.5))
 
 
 @claim("C8b", f"for K ≤ 0.1, f4 hardly varies with E ({_SECTION}, Fig. 12)", 4, "Fig. 12")
@@ -106,21 +96,21 @@ def speed_varies(evidence: Evidence, order: int, figure: str) -> Finding:
     table = _soft_hardening(evidence, order, "f_peak")
     spread = float((table.max(axis=1) - table.min(axis=1)).max())
     text = f"f{order} hardly varies with E for K <= 0.1: largest range ({figure})"
-    return Finding(text, "near 0", spread, "1", *below(spread, HARDLY["f_peak"], 0.02))
+    return Finding(text, "near 0", spread, "1", *below(spread, paper.HARDLY["f_peak"], 0.02))
 
 
 def _moduli(evidence: Evidence, order: int, column: str) -> pd.DataFrame:
     """Return Y_k or f_k over K (rows) and the paper's range of E (columns)."""
-    table = evidence.moduli(CASING, THETA, order, column)
-    table = table.loc[:, (table.columns >= SOFTEST) & (table.columns <= STIFFEST)]
+    table = evidence.moduli(paper.CASING, paper.THETA, order, column)
+    table = table.loc[:, (table.columns >= paper.SOFTEST) & (table.columns <= paper.STIFFEST)]
     if table.shape[1] < 2:
-        raise NotMeasurable(f"fewer than two E from {SOFTEST:g} to {STIFFEST:g} in the study")
+        raise NotMeasurable(f"fewer than two E from {paper.SOFTEST:g} to {paper.STIFFEST:g} in the study")
     return table
 
 
 def _with_critical(evidence: Evidence, order: int) -> pd.DataFrame:
     table = _moduli(evidence, order, "amplitude")
-    _height(table, CRITICAL_E, CRITICAL_K)
+    _height(table, paper.CRITICAL_E, paper.CRITICAL_K)
     return table
 
 
@@ -134,18 +124,18 @@ def _height(table: pd.DataFrame, young: float, hardening: float) -> float:
 def _stiffened(evidence: Evidence, order: int) -> list[pd.Series]:
     """Return f_k over ascending K, for each E above 0.5 that the study has with two K or more."""
     table = _moduli(evidence, order, "f_peak")
-    columns = [table[young].dropna() for young in table.columns if young > STIFFENING_FROM]
+    columns = [table[young].dropna() for young in table.columns if young > paper.STIFFENING_FROM]
     columns = [f_peak for f_peak in columns if f_peak.size >= 2]
     if not columns:
-        raise NotMeasurable(f"no E above {STIFFENING_FROM:g} with two K or more in the study")
+        raise NotMeasurable(f"no E above {paper.STIFFENING_FROM:g} with two K or more in the study")
     return columns
 
 
 def _soft_hardening(evidence: Evidence, order: int, column: str) -> pd.DataFrame:
     """Return Y_k or f_k for the lowest K, where the study has two E or more."""
     table = _moduli(evidence, order, column)
-    table = table.loc[table.index <= SOFT_HARDENING]
+    table = table.loc[table.index <= paper.SOFT_HARDENING]
     table = table[table.count(axis=1) >= 2]
     if table.empty:
-        raise NotMeasurable(f"no K up to {SOFT_HARDENING:g} with two E or more in the study")
+        raise NotMeasurable(f"no K up to {paper.SOFT_HARDENING:g} with two E or more in the study")
     return table
