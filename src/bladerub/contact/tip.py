@@ -6,7 +6,7 @@ from ``half_width - 0.5`` to ``half_width + 0.5``. The parabola goes on to there
 when an element passes the edge, and the shares always add up to the width of the profile.
 """
 
-from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum
+from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum, where
 
 
 @elementwise
@@ -28,6 +28,15 @@ def edge(tip):
 def coverage(tip, offset):
     """Share (0 to 1) of an element that the profile covers (Fig. 3); its centre is `offset` from the node."""
     return maximum(minimum(edge(tip) - absolute(offset), 1.0), 0.0)
+
+
+@elementwise
+def covered_distance(tip, offset):
+    """Integral of `coverage` over the offset from 0 to `offset`, in element widths."""
+    share = coverage(tip, offset)
+    rest = 0.5 * share * share + maximum(edge(tip) - absolute(offset) - 1.0, 0.0)  # what is left of it
+    distance = tip.half_width - rest
+    return where(offset > 0.0, distance, 0.0 - distance)
 
 
 @elementwise

@@ -7,7 +7,7 @@ import numpy as np
 
 from bladerub.contact import law
 from bladerub.contact.gap import is_above, penetration
-from bladerub.contact.tip import coverage, relief
+from bladerub.contact.tip import coverage, covered_distance, relief
 from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import add_to, load, load_fields, store
 from bladerub.numerics.vectors import (
@@ -25,6 +25,8 @@ LAYERED = hasattr(law, "Layer")
 """Whether something changes the forces of the elements between passages (`bladerub.contact.laws`)."""
 NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
+NO_ADVANCE = 1e-9
+"""Distance below which the share of an element is taken as constant over a step, in elements."""
 
 
 class Placement(NamedTuple):
@@ -156,8 +158,9 @@ def update_wear(modal, stator, tip, state, placement, before):
 
     An element partly under the tip counts as elements of which a share is under it: as the edge of the
     profile moves on, whole elements are pressed down or released, at the cost or to the profit of the
-    rotation. Between the ends of the step, approach and profile change linearly, and the law is integrated
-    exactly along that path.
+    rotation. Between the ends of the step, approach and profile change linearly, and law and share are
+    integrated exactly along that path. Of the energy that the elements take, the rotation supplies what the
+    blade does not by coming closer: their forces times the share, over that way.
 
     `placement` and `before` are `Placement`, less than N rows from each other. Returns the elastic energy in
     the elements, the energy taken by wear and the work of the rotation on the elements in this step, J, and
@@ -169,6 +172,8 @@ def update_wear(modal, stator, tip, state, placement, before):
     first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
     advance = position - position_before
     constant, slope = relief(tip, advance), 2.0 * tip.curvature * advance
+    slides = absolute(advance) > NO_ADVANCE
+    per_advance = 1.0 / where(slides, advance, 1.0)
     # Of friction, J per N of the force of an element; the tip slides over the casing by `advance`
     by_friction = (0.0 - load(state.tangential_factor, 0)) * advance / load(tip.per_metre, 0)
     for row in range(first, last + 1):
@@ -198,14 +203,13 @@ def update_wear(modal, stator, tip, state, placement, before):
             add_to(state.taken, 2 * entry + LANES, mean * by_friction)
         stored = stored + share * energy
         dissipated = dissipated + loss
-        mean_share = 0.5 * (share + share_before)
-        moved = absolute(deeper) > NO_CHANGE
-        mean_force = where(moved, (energy - energy_before + loss) / where(moved, deeper, 1.0), force)
-        staying = (
-            mean_share * mean_force * lowering
-            + 0.5 * (energy + energy_before) * (share - share_before)
-            + (1.0 - mean_share) * loss
-        )
-        entering, leaving = share * energy + loss, broadcast(0.0) - share_before * energy_before
-        supplied = supplied + where(under, where(was_under, staying, entering), leaving)
+        moved, stays = absolute(deeper) > NO_CHANGE, under & was_under
+        work = energy - energy_before + loss
+        mean_force = where(moved, work / where(moved, deeper, 1.0), force)
+        mean_force = where(stays, mean_force, where(under, force, force_before))
+        passed = covered_distance(tip, offset + advance) - covered_distance(tip, offset)
+        mean_share = where(slides, passed * per_advance, share)
+        together = where(stays, (share - share_before) * (force - force_before) / 12.0, 0.0)
+        by_blade = (mean_share * mean_force + together) * closer
+        supplied = supplied + (share * energy - share_before * energy_before + loss - by_blade)
     return stored, dissipated, supplied, worn_off

@@ -113,6 +113,7 @@ def source(variant: Variant) -> str:
         "TOLERANCE": newton.TOLERANCE,
         "STRAIGHT": newton.STRAIGHT,
         "NO_CHANGE": elements.NO_CHANGE,
+        "NO_ADVANCE": elements.NO_ADVANCE,
     }
     return "\n".join(
         [

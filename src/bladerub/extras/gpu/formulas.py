@@ -13,7 +13,14 @@ from bladerub.contact import friction, gap, tip
 
 LAW = ("return_mapping", "tangent", "elastic_force", "stored_energy", "dissipated_energy")
 """Functions of a law that the time loop calls."""
-OF_CONTACT = (tip.relief, tip.edge, tip.coverage, tip.highest, gap.penetration, friction.contact_force)
+OF_CONTACT = (
+    tip.relief,
+    tip.edge,
+    tip.covered_distance,
+    tip.highest,
+    gap.penetration,
+    friction.contact_force,
+)
 
 _RECORDS = {"element": "Element", "tip": "Profile"}  # by the name of an argument; others are numbers
 _VECTOR_FUNCTIONS = {"absolute", "maximum", "minimum", "where", "sqrt"}

@@ -385,6 +385,8 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
   look(model, state.window, minimum(position, position_before));
   real closer = next.approach - now.approach, constant = relief(tip, advance),
        slope = 2.0 * tip.curvature * advance;
+  flag slides = absolute(advance) > NO_ADVANCE;
+  real per_advance = reciprocal(where(slides, advance, 1.0));
   real stored = 0.0, dissipated = 0.0, supplied = 0.0;
 #pragma unroll
   for (int k = 0; k < ROWS; k++) {
@@ -411,14 +413,15 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
     real loss = dissipated_energy(model.element, worn, increment, where(was_under, force_before, 0.0), force);
     stored += share * energy;
     dissipated += loss;
-    real mean_share = 0.5 * (share + share_before);
-    flag changes = absolute(deeper) > NO_CHANGE;
+    flag stays = under & was_under, changes = absolute(deeper) > NO_CHANGE;
     real mean_force =
         where(changes, (energy - energy_before + loss) * reciprocal(where(changes, deeper, 1.0)), force);
-    real staying = mean_share * mean_force * lowering +
-                   0.5 * (energy + energy_before) * (share - share_before) + (1.0 - mean_share) * loss;
-    real entering = share * energy + loss, leaving = 0.0 - share_before * energy_before;
-    supplied += where(under, where(was_under, staying, entering), leaving);
+    mean_force = where(stays, mean_force, where(under, force, force_before));
+    real covered = covered_distance(tip, offset + advance) - covered_distance(tip, offset);
+    real mean_share = where(slides, covered * per_advance, share);
+    real together = where(stays, (share - share_before) * (force - force_before) / 12.0, 0.0);
+    real by_blade = (mean_share * mean_force + together) * turning;
+    supplied += share * energy - share_before * energy_before + loss - by_blade;
   }
   synchronise();
   state.force.moment =
