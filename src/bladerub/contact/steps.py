@@ -1,17 +1,17 @@
 """How many time steps the passage of an element takes: from a tolerance, or as the run says.
 
-The error of a run is of second order in its step h. It has two causes, each with its limit:
+The error of a run is of second order in its step h. It has two causes, which add up:
 
 1. *An element under the tip.* Its worn depth is the deepest that the profile of the tip came at the end of
-   a step, and the work of a step is the mean force times its displacement. Both errors are proportional to
-   1/n² in n steps per element, whatever the coating: ``n ≥ PASSAGE / √tolerance``. A law of the elements
-   that depends on the rate is integrated by backward Euler, to first order: ``n ≥ PASSAGE² / tolerance``.
+   a step, and the work of a step is the mean force times its displacement. In n steps per element both have
+   errors proportional to 1/n², whatever the coating: ``(PASSAGE/n)²``. A law of the elements that depends on
+   the rate is integrated by backward Euler, to first order: ``PASSAGE/n``.
 2. *The tip that bounces on the coating.* Within a step the tip yields to a force by the compliance of the
    trapezoidal rule, ``C(h) = Σ φ φᵀ / (ω² + 4/h²)``: statically in modes that are fast, as a free mass in
    those that are slow. κ is the largest eigenvalue of ``k C(h)``, k the stiffness of the elements under each
    node. For a mass m on one spring it is ``(h/2)² k/m`` of the bounce, whose period has the relative error
-   κ/6: ``κ ≤ BOUNCE · tolerance``. On the rigid casing the tip does not vibrate on a spring: the modes
-   that a step resolves meet a constraint. There `RIGID` times the first limit is enough.
+   κ/6: ``κ/BOUNCE``. On the rigid casing the tip does not vibrate on a spring: the modes that a step
+   resolves meet a constraint. There `RIGID` times the steps of the first cause are enough.
 
 The two factors are calibrated on runs of the study (docs/explanation/performance.md). Runs that are chaotic
 have no error that a step could bound; the limits are the same for them. Central differences are of first
@@ -27,13 +27,13 @@ from bladerub.contact.modes import Modes
 from bladerub.contact.schemes import Contact, normal_compliance
 from bladerub.contact.spec import RunSpec
 
-PASSAGE = 0.6
-"""Steps per element, times the square root of the tolerance."""
+PASSAGE = 0.36
+"""Relative error by the passage of an element in one step, to the power of the order of its law."""
 
-BOUNCE = 12.5
-"""Largest κ, over the tolerance."""
+BOUNCE = 13.0
+"""κ at which the bounce makes a relative error of 1, by its small values."""
 
-RIGID = 2
+RIGID = 3
 """Factor of the steps on the rigid casing."""
 
 STABLE_PART = 0.7
@@ -55,14 +55,17 @@ def steps_per_element(
 
     `law_order` is the order in h to which the law of the elements is integrated.
     """
-    n_steps = math.ceil((PASSAGE / math.sqrt(spec.tolerance)) ** (2 / law_order) - 1e-9)
+    n_steps = math.ceil(PASSAGE * spec.tolerance ** (-1 / law_order) - 1e-9)
     if spec.scheme == "central_differences":
         n_steps = max(n_steps, math.ceil(passage * modes.omega[-1] / (2 * STABLE_PART)))
     if np.isinf(contact.stiffness).any():
         return RIGID * n_steps
-    largest = BOUNCE * spec.tolerance
-    while (kappa := bounce(modes, contact, passage / n_steps)) > largest:
-        n_steps = max(n_steps + 1, math.floor(n_steps * math.sqrt(kappa / largest)))
+
+    def error() -> float:
+        return (PASSAGE / n_steps) ** law_order + bounce(modes, contact, passage / n_steps) / BOUNCE
+
+    while (excess := error() / spec.tolerance) > 1:  # more steps decrease it with their square at most
+        n_steps = max(n_steps + 1, math.floor(n_steps * math.sqrt(excess)))
     return n_steps
 
 

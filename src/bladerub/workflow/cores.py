@@ -13,10 +13,10 @@ from bladerub.study.grid import coating_cases, speeds
 FEWEST = 8
 """Jobs that a core should have to do, at least: the last ones then end at nearly the same time."""
 
-ON_RIGID_CASING = 5
+ON_RIGID_CASING = 7
 """Time of a run on the rigid casing over that of one on a soft coating, about."""
 
-STIFF = 28.0
+STIFF = 20.0
 """E / f_omega from which on the time of a run is about proportional to it, as its steps are."""
 
 BEGUN = 1
