@@ -1,7 +1,7 @@
 """What a run gives, in SI units."""
 
+import re
 from dataclasses import dataclass, field
-from typing import Annotated, get_type_hints
 
 import numpy as np
 
@@ -16,25 +16,50 @@ class Energy:
     The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential + work_couple``.
     Blade and casing:
     ``kinetic + elastic − initial + damping + stored + wear + sliding = work_shape + work_rotation``.
+
+    Attributes
+    ----------
+    initial : float
+        energy of the blade at the start
+    kinetic : float
+        kinetic energy of the blade at the end
+    elastic : float
+        elastic energy of the blade at the end
+    damping : float
+        energy dissipated by modal damping
+    work_radial : float
+        work done on the blade by the radial contact forces
+    work_tangential : float
+        work done on the blade by the tangential contact forces
+    work_couple : float
+        work done on the blade by the couples of the contact forces, where the tip turns
+    stored : float
+        elastic energy in the coating at the end
+    wear : float
+        energy dissipated by plastic shortening of the coating
+    work_shape : float
+        work of the rotation in moving the tip over the casing shape and onto new elements
+    work_rotation : float
+        work of the rotation against the tangential resistance of the coating
+    sliding : float
+        energy dissipated by the tangential resistance of the coating
+    exchanged : float
+        work exchanged in the contact, whatever its sign
     """
 
-    initial: Annotated[float, "energy of the blade at the start"]
-    kinetic: Annotated[float, "kinetic energy of the blade at the end"]
-    elastic: Annotated[float, "elastic energy of the blade at the end"]
-    damping: Annotated[float, "energy dissipated by modal damping"]
-    work_radial: Annotated[float, "work done on the blade by the radial contact forces"]
-    work_tangential: Annotated[float, "work done on the blade by the tangential contact forces"]
-    work_couple: Annotated[
-        float, "work done on the blade by the couples of the contact forces, where the tip turns"
-    ]
-    stored: Annotated[float, "elastic energy in the coating at the end"]
-    wear: Annotated[float, "energy dissipated by plastic shortening of the coating"]
-    work_shape: Annotated[
-        float, "work of the rotation in moving the tip over the casing shape and onto new elements"
-    ]
-    work_rotation: Annotated[float, "work of the rotation against the tangential resistance of the coating"]
-    sliding: Annotated[float, "energy dissipated by the tangential resistance of the coating"]
-    exchanged: Annotated[float, "work exchanged in the contact, whatever its sign"]
+    initial: float
+    kinetic: float
+    elastic: float
+    damping: float
+    work_radial: float
+    work_tangential: float
+    work_couple: float
+    stored: float
+    wear: float
+    work_shape: float
+    work_rotation: float
+    sliding: float
+    exchanged: float
 
     @property
     def residual(self) -> float:
@@ -46,48 +71,77 @@ class Energy:
         return abs(supplied - taken) / self.exchanged if self.exchanged else 0.0
 
 
-ENERGIES: dict[str, str] = {
-    name: kind.__metadata__[0] for name, kind in get_type_hints(Energy, include_extras=True).items()
-}
-"""What each entry of the ledger is."""
+ENERGIES: dict[str, str] = dict(re.findall(r"(\w+) : float\n +(.+)", Energy.__doc__ or ""))
+"""What each entry of the ledger is, as its docstring says."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run and a speed sweep have in common."""
+    """What a run and a speed sweep have in common.
 
-    status: str  # "completed"; "unbounded": a displacement exceeded the limit; "stopped" before its end
-    message: str  # the same in words
-    angle: np.ndarray  # (N,), casing angle of the element centres, rad
-    wear: np.ndarray  # (8, N), permanent shortening of each element under each node, m
-    # (revolutions N,), of node 1, mean over the passage of each element, m; NaN after an early end
+    Attributes
+    ----------
+    status : str
+        ``"completed"``; ``"unbounded"`` when a displacement exceeded the limit; ``"stopped"`` before its end.
+    message : str
+        The same in words.
+    angle : (N,) ndarray
+        Casing angle of the element centres, rad.
+    wear : (8, N) ndarray
+        Permanent shortening of each element under each node, m.
+    radial_displacement : (revolutions N,) ndarray
+        Of node 1, mean over the passage of each element, m; NaN after an early end.
+    revolution_peak : (revolutions,) ndarray
+        Largest absolute one in each revolution, m; NaN likewise. In free flight
+        (`bladerub.contact.kernel.free_flight`) it is that of a parabola.
+    revolution_amplitude : (revolutions,) ndarray
+        Half its range in each revolution, m: no mean deflection; NaN likewise.
+    n_steps, n_contact_steps : int
+        Time steps, and those of them with contact.
+    energy : Energy
+    layer : dict of str to (8, N) ndarray
+        What else the law of the coating leaves in the elements, by name; nothing by the paper's.
+    """
+
+    status: str
+    message: str
+    angle: np.ndarray
+    wear: np.ndarray
     radial_displacement: np.ndarray
-    # (revolutions,), largest absolute one in each revolution, m; NaN likewise. In free flight
-    # (`bladerub.contact.kernel.free_flight`) it is that of a parabola
     revolution_peak: np.ndarray
-    # (revolutions,), half its range in each revolution, m: no mean deflection; NaN likewise
     revolution_amplitude: np.ndarray
-    n_steps: int  # time steps
-    n_contact_steps: int  # those of them with contact
+    n_steps: int
+    n_contact_steps: int
     energy: Energy
-    # (8, N) each, what else the law of the coating leaves in the elements, by name; nothing by the paper's
     layer: dict[str, np.ndarray] = field(default_factory=dict, kw_only=True)
 
 
 @dataclass(frozen=True)
 class RunResult(Outcome):
-    """Outcome of one run, with the fields of `Outcome`."""
+    """Outcome of one run, with the fields of `Outcome`.
 
-    time_step: float  # s
-    # Steps with contact in which a node that touches did not slide over the casing with the rotation: it slid
-    # back or, by Coulomb's law, stuck; without any, both laws of friction give the same run
+    Attributes
+    ----------
+    time_step : float
+        s.
+    n_reversed_steps : int
+        Steps with contact in which a node that touches did not slide over the casing with the rotation: it
+        slid back or, by Coulomb's law, stuck; without any, both laws of friction give the same run.
+    slowest_sliding : float
+        Lowest speed over the casing of a node that touches, over that by the rotation: below 0 it slid back;
+        at most 1, which is also that of a run without contact.
+    n_fallback_steps : int
+        Steps in which Newton's method did not converge, so that the forces were found node by node; always 0
+        for the rigid casing, whose forces are always found so.
+    n_unconverged_steps : int
+        Steps whose forces did not converge: what they leave of imbalance goes into the run.
+    n_modes : int
+        That the scheme resolved; the others were condensed.
+    """
+
+    time_step: float
     n_reversed_steps: int
-    # Lowest speed over the casing of a node that touches, over that by the rotation: below 0 it slid back; at
-    # most 1, which is also that of a run without contact
     slowest_sliding: float
-    # Steps in which Newton's method did not converge, so that the forces were found node by node; always 0
-    # for the rigid casing, whose forces are always found so
     n_fallback_steps: int
-    # Steps whose forces did not converge: what they leave of imbalance goes into the run
     n_unconverged_steps: int
-    n_modes: int  # that the scheme resolved; the others were condensed
+    n_modes: int
