@@ -21,7 +21,7 @@ def test_progress_and_each_count_the_revolutions_and_a_speed_beyond_the_blade_is
 
 
 def test_growing_run_is_followed_further(study, blade):
-    asked, settings = study.run("2nd", E=2, K=0.5, f_omega=0.2), study.config.analysis.divergence
+    asked, settings = study.run("2nd", E=2, K=0.5, f_omega=0.196), study.config.analysis.divergence
     run, short = br.simulate(blade, asked), br.simulate(blade, asked, follow=False)
     assert short.longer is None
     assert run.longer.revolutions == settings.confirmation_revolutions
