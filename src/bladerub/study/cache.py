@@ -1,6 +1,6 @@
 """Computed files under keys, so that nothing is computed twice and a change of mind loses nothing.
 
-An entry of the cache is one HDF5 file: a run of the study, or a point of the chart. It holds as an attribute
+An entry of the cache is one HDF5 file, as of a run of the study. It holds as an attribute
 its key, a digest of everything that determines it. An entry of another key in its place, as of another
 blade or other solver settings, is stale. Before a stale entry is overwritten it is moved to the archive, the
 folder `ARCHIVE` next to it, and it is taken back from there when its key is asked for again.
@@ -21,8 +21,6 @@ from bladerub.io.provenance import PREFIX
 
 ARCHIVE = ".archive"
 """Folder of the archived entries, each under its key; it may be deleted at any time."""
-
-_KEYS = ("run_key", "cell_key")  # attribute of a run, of a point of the chart
 
 
 def digest(determinants: Any) -> str:
@@ -57,6 +55,7 @@ class Entry:
     path: Path
     key: str
     datasets: Set[str]
+    attribute: str = "run_key"  # that holds the key
 
     def fetch(self) -> bool:
         """Take the file back from the archive unless it is current; return whether it is now.
@@ -98,7 +97,6 @@ class Entry:
             if is_refused(error):
                 raise
             return None
-        keys = [attributes[name] for name in _KEYS if name in attributes]
+        key = str(attributes.get(self.attribute, ""))
         # a key is the name of a file in the archive
-        is_whole = keys and self.datasets <= data.keys() and re.fullmatch(r"\w+", str(keys[0]))
-        return keys[0] if is_whole else None
+        return key if self.datasets <= data.keys() and re.fullmatch(r"\w+", key) else None

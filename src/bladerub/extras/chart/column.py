@@ -102,7 +102,10 @@ def compute_missing(
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
     entries = {
         case: cache.Entry(
-            folder / f"{case.name}.h5", cache.digest([planned, blade_digest]), points.MEASURES.keys()
+            folder / f"{case.name}.h5",
+            cache.digest([planned, blade_digest]),
+            points.MEASURES.keys(),
+            points.KEY,
         )
         for case, planned in plan.items()
     }

@@ -40,6 +40,9 @@ _DATASETS = {
 }
 
 
+KEY = "cell_key"
+"""Attribute of the file of a point: its key in the store (`bladerub.study.cache`)."""
+
 RUNS_KEY = "runs_key"
 """Attribute of the file of a point: what determines its runs, but not the speeds of the search."""
 
@@ -90,7 +93,7 @@ def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: 
         name: Variable(dims.get(name, ("f_omega",)), values[name], unit, long_name)
         for name, (unit, long_name) in described.items()
     }
-    about = asdict(point.case) | {"cell_key": key, RUNS_KEY: runs_key}
+    about = asdict(point.case) | {KEY: key, RUNS_KEY: runs_key}
     return hdf5.write(path, variables, about, provenance(config.plain()))
 
 
