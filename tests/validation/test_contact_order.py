@@ -82,4 +82,4 @@ def test_residual_is_of_second_order(run, E, K, theta, f_omega, turns):
     order = -np.polyfit(np.log(steps), np.log(residual), 1)[0]
     print(f"E = {E}, K = {K}, theta = {theta}, f_omega = {f_omega}: order {order:.2f}, residual {residual}")
     assert order > 1.7
-    assert residual[0] < 1e-3
+    assert residual[0] < 1e-5
