@@ -1,6 +1,6 @@
 """How long the jobs of a study take, by measurements of the paper's."""
 
-SECONDS_PER_REVOLUTION = 0.0018
+SECONDS_PER_REVOLUTION = 0.0014
 """Of one core, for a run of the paper's blade on a soft coating, with the other core at work: the jobs of
 the 42 softest coatings of the study (docs/data/cost.csv), and a tenth more."""
 
