@@ -158,9 +158,9 @@ def update_wear(modal, stator, tip, state, placement, before):
 
     An element partly under the tip counts as elements of which a share is under it: as the edge of the
     profile moves on, whole elements are pressed down or released, at the cost or to the profit of the
-    rotation. Between the ends of the step, approach and profile change linearly, and law and share are
-    integrated exactly along that path. Of the energy that the elements take, the rotation supplies what the
-    blade does not by coming closer: their forces times the share, over that way.
+    rotation. Between the ends of the step, approach and profile change linearly, and both the law and the
+    share are integrated exactly along that path. Of the energy that the elements take, the rotation supplies
+    what the blade does not by coming closer: its way times the mean of share times force.
 
     `placement` and `before` are `Placement`, less than N rows from each other. Returns the elastic energy in
     the elements, the energy taken by wear and the work of the rotation on the elements in this step, J, and
@@ -209,7 +209,8 @@ def update_wear(modal, stator, tip, state, placement, before):
         mean_force = where(stays, mean_force, where(under, force, force_before))
         passed = covered_distance(tip, offset + advance) - covered_distance(tip, offset)
         mean_share = where(slides, passed * per_advance, share)
-        together = where(stays, (share - share_before) * (force - force_before) / 12.0, 0.0)
-        by_blade = (mean_share * mean_force + together) * closer
+        # the mean of the product of two linear courses exceeds that of their means by Δ Δ / 12
+        excess = where(stays, (share - share_before) * (force - force_before) / 12.0, 0.0)
+        by_blade = (mean_share * mean_force + excess) * closer
         supplied = supplied + (share * energy - share_before * energy_before + loss - by_blade)
     return stored, dissipated, supplied, worn_off

@@ -419,8 +419,8 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
     mean_force = where(stays, mean_force, where(under, force, force_before));
     real covered = covered_distance(tip, offset + advance) - covered_distance(tip, offset);
     real mean_share = where(slides, covered * per_advance, share);
-    real together = where(stays, (share - share_before) * (force - force_before) / 12.0, 0.0);
-    real by_blade = (mean_share * mean_force + together) * turning;
+    real excess = where(stays, (share - share_before) * (force - force_before) / 12.0, 0.0);
+    real by_blade = (mean_share * mean_force + excess) * turning;
     supplied += share * energy - share_before * energy_before + loss - by_blade;
   }
   synchronise();
