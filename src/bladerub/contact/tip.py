@@ -31,12 +31,16 @@ def coverage(tip, offset):
 
 
 @elementwise
-def covered_distance(tip, offset):
-    """Integral of `coverage` over the offset from 0 to `offset`, in element widths."""
-    share = coverage(tip, offset)
-    rest = 0.5 * share * share + maximum(edge(tip) - absolute(offset) - 1.0, 0.0)  # what is left of it
-    distance = tip.half_width - rest
-    return where(offset > 0.0, distance, 0.0 - distance)
+def mean_coverage(share, share_before, per_advance):
+    """Mean of `coverage` while it goes from `share_before` to `share`.
+
+    `per_advance` is one over the elements that the tip passes meanwhile, one at most. The share changes by as
+    much, or by less where it leaves 0 or 1 on the way, or reaches them.
+    """
+    change = absolute(share - share_before)
+    bend = 0.5 * change * (1.0 - change * per_advance)
+    gap = 1.0 - maximum(share, share_before)
+    return 0.5 * (share + share_before) + where(gap > 0.0, 0.0 - bend, bend)
 
 
 @elementwise

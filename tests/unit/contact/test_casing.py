@@ -7,7 +7,7 @@ import scipy
 from bladerub.contact.casing import gap, shape
 from bladerub.contact.illustration import loading_cycle, pressed_elements
 from bladerub.contact.spec import Casing, Coating, TipProfile
-from bladerub.contact.tip import coverage, covered_distance, highest, relief
+from bladerub.contact.tip import coverage, highest, mean_coverage, relief
 from bladerub.extras.law_reading import described_law
 
 TWO = Casing("2nd", (2,), (1.0,), 1e-3, 0.36e-3, 0.0)
@@ -94,9 +94,11 @@ def test_elements_behind_the_tip_are_worn_and_those_ahead_are_not():
 def test_profile_is_a_parabola_and_coverage_fades_over_the_width_of_one_element():
     np.testing.assert_allclose(relief(TIP, np.array([0.0, 1.0, 2.0, -2.0])), [0, 5e-6, 20e-6, 20e-6])
     np.testing.assert_allclose(coverage(TIP, np.array([1.5, 2.0, 2.25, 2.5, 3.0])), [1, 0.5, 0.25, 0, 0])
-    to = np.linspace(-3, 3, 6001)
-    integral = scipy.integrate.cumulative_trapezoid(coverage(TIP, to), to, initial=0) - TIP.half_width
-    np.testing.assert_allclose(covered_distance(TIP, to), integral, atol=1e-6)
+    for advance in (0.1, 0.25, 1.0):
+        to = np.linspace(-4, 3, 97)
+        path = coverage(TIP, to + advance * np.linspace(0, 1, 2001)[:, None])
+        mean = mean_coverage(path[0], path[-1], 1 / advance)
+        np.testing.assert_allclose(mean, scipy.integrate.simpson(path, axis=0) / 2000, atol=1e-6)
 
 
 @pytest.mark.parametrize("tilt", [1e-9, 3e-6, 19e-6, 40e-6])

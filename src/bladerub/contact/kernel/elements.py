@@ -7,7 +7,7 @@ import numpy as np
 
 from bladerub.contact import law
 from bladerub.contact.gap import is_above, penetration
-from bladerub.contact.tip import coverage, covered_distance, relief
+from bladerub.contact.tip import coverage, mean_coverage, relief
 from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import add_to, load, load_fields, store
 from bladerub.numerics.vectors import (
@@ -26,7 +26,7 @@ LAYERED = hasattr(law, "Layer")
 NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
 NO_ADVANCE = 1e-9
-"""Distance below which the share of an element is taken as constant over a step, in elements."""
+"""Least distance that the tip counts as passing in a step, in elements: it divides."""
 
 
 class Placement(NamedTuple):
@@ -172,8 +172,7 @@ def update_wear(modal, stator, tip, state, placement, before):
     first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
     advance = position - position_before
     constant, slope = relief(tip, advance), 2.0 * tip.curvature * advance
-    slides = absolute(advance) > NO_ADVANCE
-    per_advance = 1.0 / where(slides, advance, 1.0)
+    per_advance = 1.0 / maximum(absolute(advance), NO_ADVANCE)
     # Of friction, J per N of the force of an element; the tip slides over the casing by `advance`
     by_friction = (0.0 - load(state.tangential_factor, 0)) * advance / load(tip.per_metre, 0)
     for row in range(first, last + 1):
@@ -207,8 +206,7 @@ def update_wear(modal, stator, tip, state, placement, before):
         work = energy - energy_before + loss
         mean_force = where(moved, work / where(moved, deeper, 1.0), force)
         mean_force = where(stays, mean_force, where(under, force, force_before))
-        passed = covered_distance(tip, offset + advance) - covered_distance(tip, offset)
-        mean_share = where(slides, passed * per_advance, share)
+        mean_share = mean_coverage(share, share_before, per_advance)
         # the mean of the product of two linear courses exceeds that of their means by Δ Δ / 12
         excess = where(stays, (share - share_before) * (force - force_before) / 12.0, 0.0)
         by_blade = (mean_share * mean_force + excess) * closer

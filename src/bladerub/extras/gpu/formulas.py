@@ -13,14 +13,8 @@ from bladerub.contact import friction, gap, tip
 
 LAW = ("return_mapping", "tangent", "elastic_force", "stored_energy", "dissipated_energy")
 """Functions of a law that the time loop calls."""
-OF_CONTACT = (
-    tip.relief,
-    tip.edge,
-    tip.covered_distance,
-    tip.highest,
-    gap.penetration,
-    friction.contact_force,
-)
+_OF_TIP = (tip.relief, tip.coverage, tip.mean_coverage, tip.highest)
+OF_CONTACT = (*_OF_TIP, gap.penetration, friction.contact_force)
 
 _RECORDS = {"element": "Element", "tip": "Profile"}  # by the name of an argument; others are numbers
 _VECTOR_FUNCTIONS = {"absolute", "maximum", "minimum", "where", "sqrt"}

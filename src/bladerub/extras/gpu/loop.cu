@@ -385,8 +385,7 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
   look(model, state.window, minimum(position, position_before));
   real closer = next.approach - now.approach, constant = relief(tip, advance),
        slope = 2.0 * tip.curvature * advance;
-  flag slides = absolute(advance) > NO_ADVANCE;
-  real per_advance = reciprocal(where(slides, advance, 1.0));
+  real per_advance = reciprocal(maximum(absolute(advance), NO_ADVANCE));
   real stored = 0.0, dissipated = 0.0, supplied = 0.0;
 #pragma unroll
   for (int k = 0; k < ROWS; k++) {
@@ -417,8 +416,7 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
     real mean_force =
         where(changes, (energy - energy_before + loss) * reciprocal(where(changes, deeper, 1.0)), force);
     mean_force = where(stays, mean_force, where(under, force, force_before));
-    real covered = covered_distance(tip, offset + advance) - covered_distance(tip, offset);
-    real mean_share = where(slides, covered * per_advance, share);
+    real mean_share = mean_coverage(share, share_before, per_advance);
     real excess = where(stays, (share - share_before) * (force - force_before) / 12.0, 0.0);
     real by_blade = (mean_share * mean_force + excess) * turning;
     supplied += share * energy - share_before * energy_before + loss - by_blade;
