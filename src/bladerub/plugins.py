@@ -39,7 +39,9 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 =============== ===================================================================================
 """
 
+import re
 from collections.abc import Iterator
+from difflib import get_close_matches
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -47,17 +49,26 @@ from typing import Any
 
 EXTRAS = Path(__file__).parent / "extras"
 
-_PLACES = "which the plugin.py of a folder in src/bladerub/extras adds"
+_KINDS = re.findall(r"^``([A-Z_]+)``", __doc__ or "", re.MULTILINE)
 
 
 class MissingPart(ImportError):
-    """What a ``plugin.py`` adds and is not there; the message names it."""
+    """What a ``plugin.py`` adds and is not there, or cannot be added; the message names it."""
 
 
 @cache
 def offered(kind: str) -> dict[str, str]:
-    """Where to find what all folders add of a kind, such as ``"COMMANDS"``, by name."""
-    return {name: place for plugin in _plugins() for name, place in getattr(plugin, kind, {}).items()}
+    """Where to find what all folders add of a kind, such as ``"COMMANDS"``, by name.
+
+    Raises `MissingPart` if two of them add the same name.
+    """
+    places: dict[str, str] = {}
+    for plugin in _plugins():
+        added = getattr(plugin, kind, {})
+        for name in added.keys() & places.keys():
+            raise MissingPart(f"{plugin.__file__}: {kind}: {name}: is added as {places[name]} already")
+        places |= added
+    return places
 
 
 def load(place: str) -> Any:
@@ -68,10 +79,10 @@ def load(place: str) -> Any:
         loaded = import_module(module)
     except ModuleNotFoundError as error:
         if error.name and f"{module}.".startswith(f"{error.name}."):
-            raise MissingPart(f"{module}: no such module, {_PLACES}") from error
+            raise MissingPart(f"{module}: no such module, {_added_by(place)}") from error
         raise
     if name and not hasattr(loaded, name):
-        raise MissingPart(f"{module}: has no {name}, {_PLACES}")
+        raise MissingPart(f"{module}: has no {name}, {_added_by(place)}")
     return getattr(loaded, name) if name else loaded
 
 
@@ -85,8 +96,29 @@ def files(name: str) -> list[Path]:
     return sorted(EXTRAS.glob(f"*/{name}"))
 
 
+def _added_by(place: str) -> str:
+    """Name the file that adds a place, or something else of its module."""
+    added = f'"{place.partition(":")[0]}'
+    adding = (path for path in EXTRAS.glob("*/plugin.py") if added in path.read_text(encoding="utf-8"))
+    return f"which {next(adding, 'the plugin.py of a folder in src/bladerub/extras')} adds"
+
+
 def _plugins() -> Iterator[Any]:
     for path in sorted(EXTRAS.glob("*/plugin.py")):
         plugin = import_module(f"bladerub.extras.{path.parent.name}.plugin")
         if all((EXTRAS / name).is_dir() for name in getattr(plugin, "NEEDS", ())):
+            _check(plugin)
             yield plugin
+
+
+def _check(plugin: Any) -> None:
+    """Raise `MissingPart` where a ``plugin.py`` has an unknown kind, or one that is no dictionary."""
+    for kind in filter(str.isupper, vars(plugin)):
+        if kind not in _KINDS:
+            near = get_close_matches(kind, _KINDS, 1)
+            hint = f"did you mean {near[0]}?" if near else f"must be one of {', '.join(_KINDS)}"
+            raise MissingPart(f"{plugin.__file__}: {kind}: unknown, {hint}")
+        if kind != "NEEDS" and not isinstance(getattr(plugin, kind), dict):
+            raise MissingPart(
+                f"{plugin.__file__}: {kind}: must be a dictionary of names, each with its place"
+            )

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import pytest
 from blade_parts import TWISTED
@@ -38,8 +39,6 @@ except ConfigError as error:
 def test_names_and_commands_of_extras_are_public():
     assert {"Rig", "simulate_rig", "fit_coating"} <= set(dir(br))
     assert br.Rig.__module__ == "bladerub.extras.rig.spec"
-    with pytest.raises(AttributeError, match="no attribute 'Rigs'"):
-        _ = br.Rigs
 
 
 def test_the_core_names_no_extra():
@@ -89,8 +88,24 @@ def test_a_folder_adds_nothing_without_what_it_needs(monkeypatch, tmp_path):
 
 @pytest.mark.parametrize("place", ["extras.none.reader", "extras.blades.none", "contact.law:none"])
 def test_what_a_plugin_names_and_is_not_there_is_refused_in_a_line(place):
-    with pytest.raises(plugins.MissingPart, match=r"^bladerub\.\S+: .* plugin.py .*$"):
+    with pytest.raises(plugins.MissingPart, match=r"^bladerub\.\S+: .*plugin.py .*adds$"):
         plugins.load(place)
+
+
+@pytest.mark.parametrize(
+    ("added", "said"),
+    [
+        ({"COMMAND": {}}, "COMMAND: unknown, did you mean COMMANDS"),
+        ({"LAWS": ["a"]}, "LAWS: must be a dictionary"),
+        ({"LAWS": {"a": "extras.a"}}, "LAWS: a: is added as extras.a already"),
+    ],
+)
+def test_what_a_plugin_cannot_add_is_refused_in_a_line(monkeypatch, added, said):
+    monkeypatch.setattr(
+        plugins, "import_module", lambda name: SimpleNamespace(__file__="x/plugin.py", **added)
+    )
+    with pytest.raises(plugins.MissingPart, match=f"^x/plugin.py: {said}"):
+        plugins.offered.__wrapped__("LAWS")
 
 
 def test_a_source_of_blades_lacks_no_function(monkeypatch):

@@ -25,8 +25,14 @@ def parser() -> argparse.ArgumentParser:
     root = Parser("bladerub", description="Contact of a compressor blade with its abradable coating.")
     root.add_argument("--version", action="version", version=f"bladerub {__version__}")
     commands = root.add_subparsers(title="commands", dest="name", required=True, metavar="COMMAND")
-    for command in (*_COMMANDS, *plugins.loaded("COMMANDS").values()):
+    for command in _COMMANDS:
         command.add_to(commands)
+    for name, place in plugins.offered("COMMANDS").items():
+        if name in commands.choices:
+            raise plugins.MissingPart(f"{place}: {name}: is a command of bladerub, must have another name")
+        plugins.load(f"{place}:add_to")(commands)
+        if name not in commands.choices:
+            raise plugins.MissingPart(f"{place}: add_to: adds no command {name}, as its plugin.py says")
     return root
 
 

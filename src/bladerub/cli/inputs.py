@@ -40,6 +40,14 @@ class Parser(argparse.ArgumentParser):
         action = self.add_argument(name, type=kind, help=text, **keywords)
         self._choices[name] = action.choices or ()
 
+    def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parse all arguments; for one that is not known the help of the command is named."""
+        options, unknown = self.parse_known_args(args, namespace)
+        if unknown:
+            self.prog += f" {options.name}"
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return options
+
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Parse, with ``--downstream -z`` as ``--downstream=-z`` if ``-z`` is one of the choices."""
         words: list[str] = []

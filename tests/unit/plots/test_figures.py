@@ -5,16 +5,15 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import Axes3D
 
-from bladerub.plots import bins, engine_orders, style, titles
+from bladerub.plots import bins, style
 from bladerub.plots.campbell import campbell
 from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.history import history
 from bladerub.plots.polar import casing_polar, wear_profiles
 from bladerub.plots.scales import Engine, Scales
-from bladerub.plots.spectrum import ORDERS, PeakSection, peak_sections, spectrum_map
+from bladerub.plots.spectrum import PeakSection, peak_sections, spectrum_map
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import CoatingCase
 from bladerub.study.peaks import Peak
@@ -69,7 +68,6 @@ def test_amplitudes_and_c1_lie_on_their_frequency_on_the_given_scale(coating_map
     np.testing.assert_allclose(of_peak, [4 * 0.3, 0.3], rtol=1e-2)
     (c1,) = [line for line in axes.lines if line.get_label() == "$C_1$"]
     np.testing.assert_array_equal(c1.get_xydata(), np.transpose([coating_map.C1, coating_map.f_omega]))
-    assert len(axes.lines) == len(ORDERS) + 1
 
 
 def test_peaks_are_drawn_with_their_curves(coating_map, draws):
@@ -102,18 +100,6 @@ def test_wear_is_that_of_the_speeds_asked_for(coating_map, draws):
     first, second = draws(figure).axes
     assert len(first.lines) == len(second.lines)
     np.testing.assert_allclose(second.lines[0].get_ydata()[:-1], 1e3 * straight.wear[4])
-
-
-@pytest.mark.parametrize("over", ["speed", "frequency"])
-def test_lines_have_slope_k_and_end_at_the_frame(over):
-    axes, inverse = Figure().add_subplot(), over == "frequency"
-    slopes = {k: 1 / k if inverse else k for k in range(1, 9)}
-    engine_orders.draw(axes, slopes, *((2.0, 0.4) if inverse else (0.4, 2.0)))
-    for k, line in enumerate(axes.lines, start=1):
-        start, (speed, f) = line.get_xydata()[:, :: -1 if inverse else 1]
-        assert start.tolist() == [0, 0]
-        assert f == pytest.approx(k * speed)
-        assert speed == pytest.approx(0.4) or f == pytest.approx(2.0)
 
 
 def test_a_campbell_diagram_has_both_models_on_both_scales(draws):
@@ -182,13 +168,6 @@ def test_equal_figures_give_equal_files_and_leave_the_settings_of_the_session_al
     for suffix in ("png", "pdf"):
         assert (tmp_path / f"a.{suffix}").read_bytes() == (tmp_path / f"b.{suffix}").read_bytes()
     assert dict(matplotlib.rcParams) == before
-
-
-def test_coatings_are_named_by_their_law():
-    coulomb = CoatingCase("2nd", 2.0, 0.5, math.atan(0.15), "coulomb")
-    assert titles.coating(CoatingCase("2nd", 2.0, 0.5, 0.15)) == "casing 2nd, E = 2, K = 0.5, θ = 0.15 rad"
-    assert titles.coating(coulomb) == "casing 2nd, E = 2, K = 0.5, μ = 0.15"
-    assert titles.coating(CoatingCase.rigid("2nd", 0.15)) == "rigid casing 2nd, μ = 0.15"
 
 
 def test_logarithmic_axes_without_data_are_drawn(draws):
