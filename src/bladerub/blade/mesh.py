@@ -9,7 +9,7 @@ from skfem.element import Element, ElementHexS2, ElementTetP2
 from skfem.quadrature import get_quadrature
 from skfem.refdom import RefTet
 
-from bladerub.blade.geometry import check_interface, lattice
+from bladerub.blade.geometry import check_interface, corner_jacobians, lattice
 from bladerub.blade.model import N_INTERFACE
 from bladerub.settings.blade import Mesh
 
@@ -159,15 +159,33 @@ class BladeMesh:
     def from_shape(cls, shape, mesh: Mesh, n_interface: int = N_INTERFACE) -> "BladeMesh":
         """Mesh `shape`, whose ``points`` map the unit cube as those of `bladerub.blade.geometry.BladeShape`.
 
-        `mesh` are the element counts of the config. A ValueError says if the tip has too few for its nodes.
+        `mesh` are the element counts of the config. A ValueError says if the tip has too few for its nodes,
+        or the shape gives no such points.
         """
         check_interface(mesh, n_interface)
+        _check_points(shape.points, *np.meshgrid(*lattice(mesh), indexing="ij"))
         hexahedra, (xi, eta, zeta) = hexahedral_mesh(*lattice(mesh), shape.points)
         tip = np.flatnonzero(zeta == 1)
         camber_line = tip[np.isclose(eta[tip], 0.5)]
         camber_line = camber_line[np.argsort(xi[camber_line])]
         evenly = np.rint(np.linspace(0, camber_line.size - 1, n_interface)).astype(int)
         return cls(hexahedra, np.flatnonzero(zeta == 0), tip, camber_line[evenly])
+
+
+def _check_points(points, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> None:
+    """Raise `ValueError` where `points` gives no coordinates (3, n), or turns an element inside out."""
+    mapped = np.asarray(points(xi.ravel(), eta.ravel(), zeta.ravel()))
+    if mapped.shape != (3, xi.size):
+        raise ValueError(
+            f"points of the shape: has the shape {mapped.shape}; must be x, y, z, (3, {xi.size})"
+        )
+    inside_out = (corner_jacobians(mapped.reshape(3, *xi.shape)) <= 0).any(axis=(0, 1, 2))
+    if inside_out.any():
+        span = zeta[0, 0, np.argmax(inside_out)]
+        raise ValueError(
+            f"points of the shape: an element at span {span:.3g} has no volume or is turned inside out; xi, "
+            "eta and zeta must run like right-handed axes, and sections have a chord and a thickness"
+        )
 
 
 @dataclass(frozen=True)

@@ -1,3 +1,5 @@
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from blade_parts import tetrahedral_mesh
@@ -72,3 +74,9 @@ def test_volume_is_that_of_the_sections(twisted_config):
     determinant = mesh.mapping().detDF(cube)
     total = np.sum(determinant * np.einsum("i,j,k->ijk", *[weights / 2] * 3).ravel())
     assert total == pytest.approx(volume, rel=2e-5)
+
+
+def test_a_shape_that_turns_elements_inside_out_is_refused(twisted_config):
+    shape = SimpleNamespace(points=lambda xi, eta, zeta: np.stack([eta, xi, zeta]))
+    with pytest.raises(ValueError, match="turned inside out"):
+        BladeMesh.from_shape(shape, twisted_config.mesh)
