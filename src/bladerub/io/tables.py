@@ -20,13 +20,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.io import atomic, checksum
-from bladerub.io.errors import DamagedFile
+from bladerub.io.errors import BadInput, DamagedFile
 
 if TYPE_CHECKING:
     import pandas as pd
 
 DESCRIPTION = "-metadata.json"
 """What follows the name of a table in that of its description, by the location that the W3C names first."""
+
+_HEAD = ["column", "datatype", "unit", "description"]
+_DATATYPES = ["number", "integer", "string", "boolean"]
 
 COLUMNS_FILE = Path(__file__).with_name("columns.csv")
 
@@ -118,7 +121,11 @@ def described_columns(*columns_files: Path) -> dict[str, dict[str, Any]]:
 
 @cache
 def _described(columns_file: Path) -> dict[str, dict[str, Any]]:
-    described, (_, *rows) = {}, csv.reader(columns_file.read_text(encoding="utf-8").splitlines())
+    described, (head, *rows) = {}, csv.reader(columns_file.read_text(encoding="utf-8").splitlines())
+    right = f"must be {', '.join(_HEAD)}, the datatype one of {', '.join(_DATATYPES)}"
+    for line, row in enumerate((head, *rows), 1):
+        if len(row) != len(_HEAD) or (row[1] not in _DATATYPES if line > 1 else row != _HEAD):
+            raise BadInput(f"{columns_file}:{line}: {','.join(row)}: {right}")
     for name, datatype, unit, description in rows:
         kind = {"base": "boolean", "format": "True|False"} if datatype == "boolean" else datatype
         about = {"datatype": kind, "dc:description": description}

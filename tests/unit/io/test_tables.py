@@ -6,7 +6,7 @@ import pytest
 
 from bladerub import plugins
 from bladerub.io import tables
-from bladerub.io.errors import DamagedFile
+from bladerub.io.errors import BadInput, DamagedFile
 from bladerub.io.folders import ROOT
 
 ORIGIN = {"provenance_software": "bladerüb 1", "provenance_git_commit": "abc"}
@@ -59,6 +59,12 @@ def test_a_column_that_nobody_described_is_refused_before_anything_is_written(ta
     with pytest.raises(ValueError, match=r"peaks\.csv: columns not described: depth; describe them in "):
         tables.write(tmp_path / "peaks.csv", table.assign(depth=1), ORIGIN)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_wrong_line_of_descriptions_is_named(tmp_path):
+    (columns := tmp_path / "columns.csv").write_text("column,datatype,unit,description\na,m2,number,b\n")
+    with pytest.raises(BadInput, match=r"columns\.csv:2: a,m2,number,b: must be column, "):
+        tables.described_columns(columns)
 
 
 def test_what_is_not_the_whole_table_is_named(tmp_path, table):

@@ -7,9 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.io.errors import DamagedFile
 from bladerub.study import divergence, findings, peaks
-from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
+from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase
 from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, TILTED, WORN
 
@@ -86,14 +85,6 @@ def test_error_of_the_reduced_model(evidence, id_, modes, limit):
         check(id_, evidence(rom_accuracy=table), percent, holds)
     without = table[table["mode"] != worst]
     assert not is_measured(id_, evidence(rom_accuracy=without))
-
-
-@pytest.mark.parametrize("column", ["mode", "relative_error"])
-def test_a_table_of_accuracy_that_lacks_a_column_is_named(tmp_path, column):
-    path = tmp_path / "rom_accuracy.csv"
-    pd.DataFrame({"mode": [1], "relative_error": [0.0]}).drop(columns=column).to_csv(path, index=False)
-    with pytest.raises(DamagedFile, match=f"{path}: .*{column} missing"):
-        read_rom_accuracy(path)
 
 
 @pytest.mark.parametrize(("n_five", "holds"), [(150, "yes"), (149, "partly"), (50, "partly"), (49, "no")])
