@@ -24,8 +24,8 @@ def shown(path, name, category, title=None):
 
     The caption of a study is `report/<name>.rst` in its folder; it numbers categories of its own.
     """
-    caption = CAPTIONS.get(name) or workflow.source_path(f"../report/{name}.rst")
     try:
+        caption = CAPTIONS.get(name) or workflow.source_path(f"../report/{name}.rst")
         with open(caption, encoding="utf-8") as lines:
             title = title or next(lines).strip()
     except FileNotFoundError as error:

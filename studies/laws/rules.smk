@@ -1,13 +1,11 @@
 # The laws of the elements beside the paper's, drawn as Fig. 4 is. Not part of `all`.
-from bladerub.contact.laws import NAMES
+from bladerub import plugins
 
 
 rule laws:
     input:
         model=files_behind("contact.illustration"),
-        laws=files_behind(
-            *(f"extras.laws.{name}" for name in NAMES if name != "plastic")
-        ),
+        laws=files_behind(*plugins.offered("LAWS").values()),
         drawing=files_behind("extras.plots.law_cycles"),
     output:
         **drawn("laws", "Model", with_data=True),
