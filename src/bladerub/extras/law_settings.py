@@ -24,7 +24,7 @@ class Law(Section):
     model_config = ConfigDict(extra="allow")
     __pydantic_extra__: dict[str, Annotated[float, Unit("SI"), Field(ge=-1e15, le=1e15)]]
 
-    name: Annotated[Omitted[str], Form("the name of a law")] = Field(None, pattern=r"^[a-z_]+$")
+    name: Annotated[Omitted[str], Form("the name of a law")] = Field(None, pattern=r"^[a-z]\w*$")
     """docs/laws.md lists the laws, with the parameters of each and their units."""
     file: Annotated[Omitted[str], Form("the path of a Python file that ends in .py")] = Field(
         None, pattern=r"^.+\.py$"
