@@ -1,14 +1,12 @@
 # A rigid tip on a coated disk, pass by pass (config/rigs.yaml). Not part of `all`.
-from bladerub.contact.laws import NAMES
+from bladerub import plugins
 from bladerub.extras.rig.spec import PLAN as RIGS
 
 
 rule rigs:
     input:
         rigs=RIGS.as_posix(),
-        laws=files_behind(
-            *(f"extras.laws.{name}" for name in NAMES if name != "plastic")
-        ),
+        laws=files_behind(*plugins.offered("LAWS").values()),
         computing=files_behind("extras.rig.passes"),
         drawing=files_behind("extras.plots.rigs"),
     output:

@@ -11,6 +11,7 @@ from skfem.refdom import RefTet
 
 from bladerub.blade.geometry import check_interface, corner_jacobians, lattice
 from bladerub.blade.model import N_INTERFACE
+from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Mesh
 
 
@@ -173,7 +174,7 @@ class BladeMesh:
 
 
 def _check_points(points, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> None:
-    """Raise `ValueError` where `points` gives no coordinates (3, n), or turns an element inside out."""
+    """Raise `BadInput` where `points` gives no coordinates (3, n), or turns an element inside out."""
     mapped = np.asarray(points(xi.ravel(), eta.ravel(), zeta.ravel()))
     if mapped.shape != (3, xi.size):
         raise ValueError(
@@ -182,7 +183,7 @@ def _check_points(points, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> 
     inside_out = (corner_jacobians(mapped.reshape(3, *xi.shape)) <= 0).any(axis=(0, 1, 2))
     if inside_out.any():
         span = zeta[0, 0, np.argmax(inside_out)]
-        raise ValueError(
+        raise BadInput(
             f"points of the shape: an element at span {span:.3g} has no volume or is turned inside out; xi, "
             "eta and zeta must run like right-handed axes, and sections have a chord and a thickness"
         )
