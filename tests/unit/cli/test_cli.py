@@ -19,7 +19,6 @@ from bladerub.study.store import read_run
 
 RUN = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0.19"]
 
-
 pytestmark = pytest.mark.usefixtures("at_home")
 
 

@@ -3,8 +3,8 @@
 1. *Numbers*: forces, wear, stiffness and energies are finite.
 2. *Contact*: an element only pushes, and only where it is touched; its wear never shrinks.
 3. *Monotone*: the deeper it is pressed, the greater its force and its wear.
-4. *Agreement*: the stiffness is the derivative of the force, as far as the law says that it is constant; the
-   elastic force at the depth that is left by wear is the force.
+4. *Agreement*: the stiffness is the derivative of the force, as far as the law says that it is constant, or
+   at the depth alone to a per cent; the elastic force at the depth that is left by wear is the force.
 5. *Energy*: what work goes into an element is stored or dissipated, and no cycle gives back more than it
    takes.
 6. Where the law has a strength that heat lowers, it is 1 in the cold, never rises with the temperature and
@@ -204,17 +204,24 @@ def _look(law, element, depth, wear, force, increment, rng, log: _ProblemLog) ->
     slope, linear = law.tangent(element, depth, wear)
     finite = np.isfinite(slope) & np.isfinite(linear)
     log.unless(finite, "it gives what is no number", **values, stiffness=slope, constant_over=linear)
+
+    def forces(step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        above, below = (law.return_mapping(element, depth + sign * step, wear)[0] for sign in (1, -1))
+        return above, below
+
+    what, named = (
+        "tangent is not the derivative of the force, as far as it says",
+        values | {"stiffness": slope},
+    )
     for part in (0.5, 0.99):
         step = np.minimum(part * linear, scale)
         wide = step > 1e-6 * scale  # else rounding would count
-        force_above, force_below = (
-            law.return_mapping(element, depth + sign * step, wear)[0] for sign in (1, -1)
-        )
-        error = np.abs(force_above - force_below - 2 * step * slope)
-        log.unless(
-            ~wide | (error <= 1e-6 * element.elastic * step + small),
-            "tangent is not the derivative of the force, as far as it says",
-            **values,
-            stiffness=slope,
-            over=step,
-        )
+        above, below = forces(step)
+        error = np.abs(above - below - 2 * step * slope)
+        log.unless(~wide | (error <= 1e-6 * element.elastic * step + small), what, **named, over=step)
+    step = 1e-5 * scale
+    above, below = forces(step)
+    ahead, behind = (above - force) / step, (force - below) / step
+    margin = 1e-2 * np.maximum(np.abs(ahead), np.abs(behind)) + small / step
+    between = (slope >= np.minimum(ahead, behind) - margin) & (slope <= np.maximum(ahead, behind) + margin)
+    log.unless((linear > step) | (step == 0) | between, what, **named, over=linear)

@@ -62,6 +62,7 @@ def test_what_is_wrong_with_a_law_is_told(compiled, monkeypatch):
         (FORCE, RISING, "elastic_force after wear is not the force"),
         (FORCE, FORCE.replace("- element", "- 2.0 * element"), "force or wear falls as the depth grows"),
         (PLASTIC_SLOPE, "plastic = element.elastic", TANGENT),
+        ("return stiffness, element.elastic_compliance *", "return 2.0 * stiffness, 0.0 *", TANGENT),
     ):
         monkeypatch.setattr(element_law, "TIME_STEPS", (1e-6,))
         assert PAPER.count(right) == 1
