@@ -41,7 +41,6 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 
 import re
 from collections.abc import Iterator
-from difflib import get_close_matches
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -49,6 +48,7 @@ from typing import Any
 
 EXTRAS = Path(__file__).parent / "extras"
 
+# none where Python drops docstrings
 _KINDS = re.findall(r"^``([A-Z_]+)``", __doc__ or "", re.MULTILINE)
 
 
@@ -114,7 +114,9 @@ def _plugins() -> Iterator[Any]:
 def _check(plugin: Any) -> None:
     """Raise `MissingPart` where a ``plugin.py`` has an unknown kind, or one that is no dictionary."""
     for kind in filter(str.isupper, vars(plugin)):
-        if kind not in _KINDS:
+        if _KINDS and kind not in _KINDS:
+            from difflib import get_close_matches
+
             near = get_close_matches(kind, _KINDS, 1)
             hint = f"did you mean {near[0]}?" if near else f"must be one of {', '.join(_KINDS)}"
             raise MissingPart(f"{plugin.__file__}: {kind}: unknown, {hint}")

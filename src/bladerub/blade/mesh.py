@@ -177,9 +177,7 @@ def _check_points(points, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> 
     """Raise `BadInput` where `points` gives no coordinates (3, n), or turns an element inside out."""
     mapped = np.asarray(points(xi.ravel(), eta.ravel(), zeta.ravel()))
     if mapped.shape != (3, xi.size):
-        raise ValueError(
-            f"points of the shape: has the shape {mapped.shape}; must be x, y, z, (3, {xi.size})"
-        )
+        raise BadInput(f"points of the shape: has the shape {mapped.shape}; must be x, y, z, (3, {xi.size})")
     inside_out = (corner_jacobians(mapped.reshape(3, *xi.shape)) <= 0).any(axis=(0, 1, 2))
     if inside_out.any():
         span = zeta[0, 0, np.argmax(inside_out)]
