@@ -28,14 +28,14 @@ def begin():
         process.wait()
 
 
-def wait_until(condition, process):
-    """Wait for `condition`, while `process` must stay at work."""
-    for _ in range(600):
+def wait_until(condition, *processes):
+    """Wait for `condition`, while `processes` must stay at work."""
+    for number in range(1800):
         if condition():
             return
         with pytest.raises(subprocess.TimeoutExpired):
-            process.wait(0.1)
-    raise AssertionError("what was waited for did not come within a minute")
+            processes[number % len(processes)].wait(0.1)
+    raise AssertionError("what was waited for did not come within three minutes")
 
 
 def contains(path, text):
@@ -85,7 +85,7 @@ def test_two_folders_with_the_same_results_compute_each_run_once(begun, begin, t
     (other.folder / "results").symlink_to(study.folder / "results")
     with lock.held(coating / ".lock", lambda: None):
         both = [begin(study), begin(other)]
-        wait_until(lambda: has_waiters(coating / ".lock", 2), both[0])
+        wait_until(lambda: has_waiters(coating / ".lock", 2), *both)
     with ThreadPoolExecutor() as pool:
         ends = [pool.submit(process.wait, 300) for process in both]
         wait(ends, return_when=FIRST_COMPLETED)
