@@ -137,8 +137,8 @@ def described_law(name: str, values: Mapping[str, Any], source: str = "") -> Ele
     rules = parameters_of(source_of(ElementLaw(name, (), source)))
     for key, value in values.items():
         if key not in rules:
-            has = f"this law has {', '.join(rules)}" if rules else "this law has no parameters of its own"
-            raise ValueError(f"{key} = {value}: unknown parameter, {has}")
+            has = f"has {', '.join(rules)}" if rules else "has no parameters of its own"
+            raise ValueError(f"{key} = {value}: unknown parameter, the law {name} {has}")
     settings = []
     for parameter, rule in rules.items():
         requirement = (
