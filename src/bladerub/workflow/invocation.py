@@ -186,9 +186,8 @@ def finished(results: str | Path) -> None:
     """Say after the last job what there is, and what to open."""
     results = Path(results)
     n_figures = sum(path.suffix == ".png" for path in results.glob("figures/**/*"))
-    _print(
-        f"{n_figures} {'figure' if n_figures == 1 else 'figures'} in {results / 'figures'}, tables in {results / 'tables'}"
-    )
+    figures = "1 figure" if n_figures == 1 else f"{n_figures} figures"
+    _print(f"{figures} in {results / 'figures'}, tables in {results / 'tables'}")
     for page in sorted(results.glob("*.html")):
         _print(f"open {page} in a browser")
 
