@@ -3,7 +3,7 @@
 import atexit
 import sys
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -30,10 +30,11 @@ def announce(
     """Print the `forecast` of the jobs that Snakemake's `workflow` is to do, unless it has failed before."""
     if workflow.dag is None:  # there was an error
         return
-    planned = workflow.dag.needrun_jobs(exclude_finished=False)  # to Snakemake a dry run has finished all
+    planned = list(workflow.dag.needrun_jobs(exclude_finished=False))  # to a dry run all are finished
     jobs = [(job.rule.name, job.wildcards.get("coating")) for job in planned]
+    simulating = {job.rule.name for job in planned if hasattr(job.input, "kernel")}
     try:
-        line = forecast(config, jobs, cores, plan_of)
+        line = forecast(config, jobs, cores, plan_of, simulating)
     except OSError as error:
         line = message_for(error)
     print(f"bladerub: {coatings(config)}\nbladerub: {line}", file=sys.stderr)
@@ -55,12 +56,14 @@ def forecast(
     jobs: Iterable[tuple[str, str | None]],
     cores: int | None = None,
     plan_of: Callable[[str], CoatingPlan] | None = None,
+    simulating: Collection[str] = (),
 ) -> str:
     """Say in a line how many runs of the study are missing, stale or corrupt, and what the `jobs` cost.
 
     These are all that are planned, as pairs of their rule and the coating of its wildcards. Without `cores`,
     of which Snakemake tells a dry run nothing, the time is that of one. `plan_of` gives the plan of a coating
-    by its name, where the caller has it already.
+    by its name, where the caller has it already. Of the `simulating` rules those whose time is not known are
+    named.
     """
     results, jobs = Path(config.results), list(jobs)
     digest, _ = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
@@ -91,4 +94,6 @@ def forecast(
     seconds += simulated * (revolutions + GROWING * longer) * SECONDS_PER_REVOLUTION
     minutes = max(seconds / 60 / (cores or 1), 1)
     machine = f"on {cores} cores" if cores and cores > 1 else "of one core"
-    return f"{runs}; {len(jobs):,} jobs, about {minutes:.0f} min {machine}"
+    unknown = sorted(set(simulating) - {"coating", *costs.further})
+    without = f", without the simulations of {', '.join(unknown)}" if unknown else ""
+    return f"{runs}; {len(jobs):,} jobs, about {minutes:.0f} min {machine}{without}"
