@@ -53,8 +53,8 @@ def elastic_limit(element, wear):
 
 
 @elementwise
-def elastic_force(element, depth):
-    """Force of an element at a depth that it has borne before, N."""
+def elastic_force(element, depth, wear):
+    """Force of an element at a depth that it has borne before, N; this law does without its `wear`, m."""
     return element.elastic * maximum(depth, 0.0)
 
 

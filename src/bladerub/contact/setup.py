@@ -130,14 +130,14 @@ def _contact(blade: ReducedBlade, spec: RunSpec) -> Contact:
 def _n_steps(modes: Modes, contact: Contact, blade: ReducedBlade, spec: RunSpec) -> int:
     passage = element_passage(blade, spec)
     return own_steps(passage, spec.steps_per_element, spec.max_time_step) or steps_per_element(
-        spec, modes, contact, passage, _law_order(blade, spec)
+        spec, modes, contact, passage, _depends_on_rate(blade, spec)
     )
 
 
-def _law_order(blade: ReducedBlade, spec: RunSpec) -> int:
-    """Order of the law in the time step: 1 where it depends on the rate, by backward Euler."""
+def _depends_on_rate(blade: ReducedBlade, spec: RunSpec) -> bool:
+    """Whether the time step changes what the law of the elements does."""
     if spec.coating.is_rigid:
-        return 2
+        return False
     area = element_area(blade, spec)
     at_rest, fast = (element_parameters(spec.coating, area, h) for h in (math.inf, 1e-6))
-    return 2 if np.array_equal(at_rest, fast) else 1
+    return not np.array_equal(at_rest, fast)

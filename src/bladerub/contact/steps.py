@@ -5,7 +5,7 @@ The error of a run is of second order in its step h. It has two causes, which ad
 1. *An element under the tip.* Its worn depth is the deepest that the profile of the tip came at the end of
    a step, and the work of a step is the mean force times its displacement. In n steps per element both have
    errors proportional to 1/n², whatever the coating: ``(PASSAGE/n)²``. A law of the elements that depends on
-   the rate is integrated by backward Euler, to first order: ``PASSAGE/n``.
+   the rate counts the time that an element is under the tip, which is known to half a step: ``RATE/n``.
 2. *The tip that bounces on the coating.* Within a step the tip yields to a force by the compliance of the
    trapezoidal rule, ``C(h) = Σ φ φᵀ / (ω² + 4/h²)``: statically in modes that are fast, as a free mass in
    those that are slow. κ is the largest eigenvalue of ``k C(h)``, k the stiffness of the elements under each
@@ -28,7 +28,10 @@ from bladerub.contact.schemes import Contact, normal_compliance
 from bladerub.contact.spec import RunSpec
 
 PASSAGE = 0.36
-"""Relative error by the passage of an element in one step, to the power of the order of its law."""
+"""Root of the relative error by the passage of an element in one step."""
+
+RATE = 0.18
+"""The same error, of a law that depends on the rate."""
 
 BOUNCE = 13.0
 """κ at which the bounce makes a relative error of 1, by its small values."""
@@ -49,20 +52,21 @@ def own_steps(passage: float, n_steps: int, longest: float) -> int:
 
 
 def steps_per_element(
-    spec: RunSpec, modes: Modes, contact: Contact, passage: float, law_order: int = 2
+    spec: RunSpec, modes: Modes, contact: Contact, passage: float, depends_on_rate: bool = False
 ) -> int:
     """Return the fewest steps in the `passage` (s) of an element that the tolerance of the run allows.
 
-    `law_order` is the order in h to which the law of the elements is integrated.
+    `depends_on_rate` says so of the law of the elements.
     """
-    n_steps = math.ceil(PASSAGE * spec.tolerance ** (-1 / law_order) - 1e-9)
+    factor, order = (RATE, 1) if depends_on_rate else (PASSAGE**2, 2)
+    n_steps = math.ceil((factor / spec.tolerance) ** (1 / order) - 1e-9)
     if spec.scheme == "central_differences":
         n_steps = max(n_steps, math.ceil(passage * modes.omega[-1] / (2 * STABLE_PART)))
     if np.isinf(contact.stiffness).any():
         return RIGID * n_steps
 
     def error() -> float:
-        return (PASSAGE / n_steps) ** law_order + bounce(modes, contact, passage / n_steps) / BOUNCE
+        return factor / n_steps**order + bounce(modes, contact, passage / n_steps) / BOUNCE
 
     while (excess := error() / spec.tolerance) > 1:  # more steps decrease it with their square at most
         n_steps = max(n_steps + 1, math.floor(n_steps * math.sqrt(excess)))

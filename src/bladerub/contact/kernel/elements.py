@@ -186,7 +186,7 @@ def update_wear(modal, stator, tip, state, placement, before):
         depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
         deeper = closer + lowering
         force, increment = law.return_mapping(element, depth, worn)
-        force_before = law.elastic_force(element, depth - deeper)
+        force_before = law.elastic_force(element, depth - deeper, worn)
         under, was_under = share > 0.0, share_before > 0.0
         increment, force = where(under, increment, 0.0), where(under, force, 0.0)
         store(state.wear, entry, worn + increment)

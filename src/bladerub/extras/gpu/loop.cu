@@ -401,7 +401,7 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
     real depth = penetration(here, relief(tip, offset), state.window.gap[k], worn),
          deeper = turning + lowering;
     Pair mapped = return_mapping(model.element, depth, worn);
-    real force_before = elastic_force(model.element, depth - deeper);
+    real force_before = elastic_force(model.element, depth - deeper, worn);
     flag under = share > 0.0, was_under = share_before > 0.0;
     real force = where(under, mapped.first, 0.0), increment = where(under, mapped.second, 0.0);
     state.window.worn[k] = worn + increment;

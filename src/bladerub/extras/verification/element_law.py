@@ -194,7 +194,7 @@ def _look(law, element, depth, wear, force, increment, rng, log: _ProblemLog) ->
         deeper_by=by,
         to=deeper_force,
     )
-    elastic_force = law.elastic_force(element, depth - increment)
+    elastic_force = law.elastic_force(element, depth - increment, wear + increment)
     log.unless(
         np.abs(elastic_force - force) <= small,
         "elastic_force after wear is not the force",

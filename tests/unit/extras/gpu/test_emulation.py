@@ -188,7 +188,7 @@ extern "C" void evaluate(int n, const double* parameters, const double* given, d
     const Profile tip{2.0, 5e-6};
     const Pair mapped = return_mapping(element, depth, wear), slope = tangent(element, depth, wear);
     const real results[] = {
-        mapped.first, mapped.second, slope.first, slope.second, elastic_force(element, depth),
+        mapped.first, mapped.second, slope.first, slope.second, elastic_force(element, depth, wear),
         stored_energy(element, mapped.first),
         dissipated_energy(element, wear, mapped.second, before, mapped.first),
         coverage(tip, offset), relief(tip, offset)};
@@ -218,7 +218,8 @@ def test_a_formula_gives_what_it_gives_in_python(name, tmp_path):
     force, increment = module.return_mapping(element, depth, wear)
     tip = TipProfile(2.0, 20e-6)
     expected = [
-        *(force, increment, *module.tangent(element, depth, wear), module.elastic_force(element, depth)),
+        *(force, increment, *module.tangent(element, depth, wear)),
+        module.elastic_force(element, depth, wear),
         module.stored_energy(element, force),
         module.dissipated_energy(element, wear, increment, before, force),
         *(coverage(tip, offset), relief(tip, offset)),
@@ -233,7 +234,7 @@ def test_what_a_gpu_is_not_given_is_named():
         ("", "unheard_of * depth", "elastic_force: unheard_of"),
         (own_limit, "elastic_limit(element, depth)", "elastic_limit: two functions of this name"),
     ):
-        module, force = ModuleType("law"), f"def elastic_force(element, depth):\n    return {body}\n"
+        module, force = ModuleType("law"), f"def elastic_force(element, depth, wear):\n    return {body}\n"
         source = f"from bladerub.contact.law import *\n{more}{force}"
         exec(compile(source, "<law>", "exec"), module.__dict__)
         with pytest.raises(ValueError, match=named):
