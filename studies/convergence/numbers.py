@@ -109,7 +109,8 @@ def _nodes(nodes):
 
 def _impact(impact):
     lines = []
-    for f_omega, order in ((0.25, 4), (0.388, 4), (0.232, 6)):
+    whole = rows(impact, treatment="moreau_jean_0.5")  # of the speeds with all alternatives
+    for f_omega, order in zip(whole["f_omega"], whole["order"], strict=True):
         runs = rows(impact, f_omega=f_omega)
         study = rows(runs, treatment="exponential").iloc[0]
         complete = rows(runs, complete=True)

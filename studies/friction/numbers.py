@@ -10,6 +10,7 @@ def numbers(tables):
     reversed_ = friction[friction["reversed_coulomb"] > 0]
     others = friction[friction["reversed_coulomb"] == 0]
     beyond = rows(friction, status_theta="unbounded")
+    alike = reversed_[reversed_["status_theta"] == reversed_["status_coulomb"]]
     return {
         "speeds": fixed(len(rows(slow, E=2))),
         "runs_an_angle": fixed(len(slow)),
@@ -19,7 +20,7 @@ def numbers(tables):
         "reversed_03": fixed((steep["reversed_coulomb"] > 0).sum()),
         "reversed_below": fixed(reversed_["f_omega"].max(), 3),
         "reversed_steps": percent(friction["reversed_coulomb"].max()),
-        "difference_reversed": percent(reversed_["difference"].abs().max(), 1),
+        "difference_reversed": percent(alike["difference"].abs().max(), 1),
         "difference_others": f"{others['difference'].abs().max():.0e}",
         "beyond": fixed(len(rows(beyond, status_coulomb="unbounded"))),
         "beyond_one_law": fixed((friction["status_theta"] != friction["status_coulomb"]).sum()),
