@@ -68,8 +68,7 @@ def order(steps, errors):
 
 
 @pytest.mark.parametrize("n", [1, 4, 50])
-def test_overstress_builds_up_and_relaxes_as_the_exponential(n):
-    """Exactly, whatever the step: first at a constant rate from the elastic limit on, then at its strain."""
+def test_overstress_builds_up_at_a_constant_rate_and_relaxes_whatever_the_step(n):
     top = 300.0 * TIME
     strain = YIELD / E + top * np.linspace(0, 2, 2 * n + 1).clip(max=1)
     stress, *_ = press(VISCOPLASTIC, strain, TIME / n)
@@ -154,14 +153,13 @@ def test_the_ledger_of_random_runs_closes(run, name, runs):
     assert worn > 0.9 * runs
 
 
-CONVERGING = [(VISCOPLASTIC, 0.0, 0.8), (THERMAL, 0.15, 1.7)]
+CONVERGING = [(VISCOPLASTIC, 0.0, 0.8), (THERMAL, 0.15, 1.7)]  # viscous flow begins within a step
 CONVERGING += [pytest.param(law, 0.0, 1.7, marks=pytest.mark.nightly) for law in (PERFECT, BRITTLE)]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("law", "theta", "least"), CONVERGING, ids=lambda law: getattr(law, "name", ""))
 def test_wear_converges_with_the_step(run, law, theta, least):
-    """Of second order but for the half step in which an element begins to flow."""
     steps = np.array([20, 40, 80])
     values = {"revolutions": 2, "element_law": law}
     *worn, exact = (run(E, K, 0.12, theta, steps_per_element=n, **values).wear for n in (*steps, 640))

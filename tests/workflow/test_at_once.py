@@ -47,9 +47,8 @@ def waits(log):
 
 def has_waiters(path, number):
     """Whether that many processes wait for the lock file `path`."""
-    waiting = f":{path.stat().st_ino} "
     with open("/proc/locks") as locks:
-        return sum(waiting in line and "->" in line for line in locks) == number
+        return sum(f":{path.stat().st_ino} " in line and "->" in line for line in locks) == number
 
 
 @pytest.fixture
