@@ -53,7 +53,8 @@ def press(law, strain, time_step=math.inf):
     coating = Coating(E, K, 0.0, YIELD, UNIT, THICKNESS, 2000, element_law=law)
     module = module_of(law)
     element = module.element(coating, AREA, time_step)
-    wear, force, loss, rows = 0.0, 0.0, 0.0, []
+    wear = force = loss = 0.0
+    rows = []
     for depth in np.asarray(strain) * THICKNESS:
         before = force
         force, increment = module.return_mapping(element, depth - wear, wear)

@@ -31,7 +31,7 @@ PASSAGE = 0.36
 """Root of the relative error by the passage of an element in one step."""
 
 RATE = 0.18
-"""The same error, of a law that depends on the rate."""
+"""Relative error by the passage of an element in one step, of a law that depends on the rate."""
 
 BOUNCE = 13.0
 """κ at which the bounce makes a relative error of 1, by its small values."""

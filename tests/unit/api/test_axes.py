@@ -23,8 +23,7 @@ def test_each_run_is_a_line_in_the_axes(run, stiffer, axes):
     for line, each in zip(axes.lines, (run, stiffer), strict=True):
         np.testing.assert_array_equal(line.get_data(), [each.spectrum.index, 1e3 * each.spectrum])
     assert axes.get_ylim()[1] > 1e3 * max(run.spectrum.max(), stiffer.spectrum.max())
-    looks = {(line.get_color(), line.get_linestyle()) for line in axes.lines}
-    assert len(looks) == 2
+    assert len({(line.get_color(), line.get_linestyle()) for line in axes.lines}) == 2
 
 
 def test_wear_is_drawn_around_polar_axes_and_along_others(run, stiffer, axes):

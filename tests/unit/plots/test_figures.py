@@ -132,7 +132,8 @@ def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(dra
     places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
     np.testing.assert_array_equal(places, [[0, 0], [0, 1], [1, 0]])
     np.testing.assert_allclose(floor + height, [1.0, 3.0, 2.0])
-    draws(figure)
+    _, cells, _ = draws(figure).axes
+    assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
 
 
 def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(write_run, make_result, case, draws):

@@ -83,8 +83,7 @@ def test_error_of_the_reduced_model(evidence, id_, modes, limit):
         rows += [(8, 1.0), (7 if id_ == "C1a" else 6, 1.0)]  # modes that the claim is not about
         table = pd.DataFrame(rows, columns=["mode", "relative_error"])
         check(id_, evidence(rom_accuracy=table), percent, holds)
-    without = table[table["mode"] != worst]
-    assert not is_measured(id_, evidence(rom_accuracy=without))
+    assert not is_measured(id_, evidence(rom_accuracy=table[table["mode"] != worst]))
 
 
 @pytest.mark.parametrize(("n_five", "holds"), [(150, "yes"), (149, "partly"), (50, "partly"), (49, "no")])

@@ -112,10 +112,7 @@ def quick(study, case):
         study.replaced("speeds.extra", []),
         contact={"elements": 200},
         solver={"revolutions": 3, "steps_per_element": 20, "max_time_step": 2e-5},
-        analysis={
-            "spectrum_revolutions": 2,
-            "divergence": {"revolutions": 3, "confirmation_revolutions": 6},
-        },
+        analysis={"spectrum_revolutions": 2, "divergence": {"revolutions": 3, "confirmation_revolutions": 6}},
     ).replaced("analysis.divergence.growth", -1.0)
     return study, coating_plan(study, case)
 

@@ -32,6 +32,7 @@ def announce(
         return
     planned = list(workflow.dag.needrun_jobs(exclude_finished=False))  # to a dry run all are finished
     jobs = [(job.rule.name, job.wildcards.get("coating")) for job in planned]
+    # what simulates waits for the machine code
     simulating = {job.rule.name for job in planned if hasattr(job.input, "kernel")}
     try:
         line = forecast(config, jobs, cores, plan_of, simulating)

@@ -57,11 +57,13 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatc
     runs = 0.6 * sum(costs.runs.values()) + sum(costs.further["ensemble"].values())
     revolutions = 3600 + GROWING * 3600
     seconds = runs * revolutions * SECONDS_PER_REVOLUTION + 8 * SECONDS_PER_JOB + SECONDS_AT_FIRST["blade"]
-    numbers = re.findall(r"\d+", (line := forecast(study, jobs)).replace(",", ""))
+    line = forecast(study, jobs)
+    numbers = re.findall(r"\d+", line.replace(",", ""))
     assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
     assert costs.further["ensemble"][JOBS[0][1]] > 0
     chart = forecast(study, [("chart_column", None)], simulating={"chart_column", "coating"})
-    assert re.search("20 of 200 .* missing, and not .* without the simulations of chart_column$", chart)
+    assert chart.startswith("120 of 200 runs of the study are missing, and not")
+    assert chart.endswith(", without the simulations of chart_column")
     members = tmp_path / "runs" / JOBS[0][1] / "ensemble" / "manifest.tsv"
     members.parent.mkdir(parents=True)
     members.touch()

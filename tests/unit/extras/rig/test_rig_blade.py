@@ -103,8 +103,7 @@ def test_a_blade_yields_and_the_ledger_is_closed(rig, blade):
     on_disk = passes(rig, blade, disk_turns=True)
     assert on_disk.equals(passes(rig, at_rest))
     assert not on_disk.equals(passes(rig, blade))
-    faster = replace(rig, speed=600.0)
-    assert passes(faster, blade, disk_turns=True).worn_depth.iloc[-1] > 0
+    assert passes(replace(rig, speed=600.0), blade, disk_turns=True).worn_depth.iloc[-1] > 0
 
 
 def test_the_blade_keeps_the_impulse(rig, blade):
