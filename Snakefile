@@ -65,7 +65,6 @@ include: "src/rules/blade.smk"
 include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
-include: "src/rules/images.smk"
 
 
 # Outputs of rules of studies that `all` makes as well, by rule
@@ -74,6 +73,9 @@ ADDED_TO_ALL = {}
 for rules_of_study in RULES_OF_STUDIES:
 
     include: rules_of_study.as_posix()
+
+
+include: "src/rules/images.smk"
 
 
 localrules:

@@ -1,4 +1,6 @@
 # Where the rules write to, and what Snakemake's report (`snakemake --report report.html`) shows, in which order.
+from typing import NamedTuple
+
 from bladerub.io.sources import files_behind
 
 
@@ -71,6 +73,17 @@ def drawn_together(names, category, with_data=True):
         for name in names
         for kind, file in drawn(name, category, with_data).items()
     }
+
+
+class Picture(NamedTuple):
+    """A committed picture of a figure."""
+
+    figure: str
+    colours: int
+    shrink: int = 1  # over how many pixels it takes the mean
+
+
+PICTURES = {}  # by the target that makes them: rules of studies add theirs
 
 
 def memory_mb(wildcards, attempt):

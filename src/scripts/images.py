@@ -8,9 +8,9 @@ from PIL import Image
 
 from bladerub.io import atomic
 
-for figure, small in zip(snakemake.input, snakemake.output, strict=True):
+for figure, small, (colours, shrink) in zip(
+    snakemake.input, snakemake.output, snakemake.params.pictures, strict=True
+):
     with Image.open(figure) as image, atomic.writing(small, "wb") as stream:
-        smaller = image.convert("RGB").reduce(snakemake.params.get("shrink", 1))
-        colours = 12 if small in snakemake.params.get("few", []) else snakemake.params.colours
-        few = smaller.quantize(colours, dither=Image.Dither.NONE)
+        few = image.convert("RGB").reduce(shrink).quantize(colours, dither=Image.Dither.NONE)
         few.save(stream, format="PNG", optimize=True)

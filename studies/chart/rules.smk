@@ -253,15 +253,7 @@ localrules:
     chart,
 
 
-CHART_FIGURES = ["Y4", "safe", "pareto", "explanation", "stiffening"]
-
-
-use rule images as chart_images with:
-    input:
-        [f"{PLOTS}/chart_{name}.png" for name in CHART_FIGURES],
-    output:
-        [f"studies/chart/images/chart_{name}.png" for name in CHART_FIGURES],
-    log:
-        f"{RESULTS}/logs/chart_images.log",
-    params:
-        colours=20,
+PICTURES["chart_images"] = {
+    f"studies/chart/images/chart_{name}.png": Picture(f"{PLOTS}/chart_{name}.png", 20)
+    for name in ("Y4", "safe", "pareto", "explanation", "stiffening")
+}

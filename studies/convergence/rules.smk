@@ -74,12 +74,6 @@ rule steps:
         "scripts/steps.py"
 
 
-use rule images as steps_image with:
-    input:
-        rules.steps.output.png,
-    output:
-        "studies/convergence/images/steps.png",
-    log:
-        f"{RESULTS}/logs/steps_image.log",
-    params:
-        colours=24,
+PICTURES["steps_image"] = {
+    "studies/convergence/images/steps.png": Picture(rules.steps.output.png, 24)
+}

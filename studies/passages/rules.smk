@@ -117,15 +117,7 @@ rule long_coating:
         "scripts/long_coating.py"
 
 
-PASSAGE_FIGURES = ["sweeps", "long_runs"]
-
-
-use rule images as passage_images with:
-    input:
-        [f"{PLOTS}/{name}.png" for name in PASSAGE_FIGURES],
-    output:
-        [f"studies/passages/images/{name}.png" for name in PASSAGE_FIGURES],
-    log:
-        f"{RESULTS}/logs/passage_images.log",
-    params:
-        colours=20,
+PICTURES["passage_images"] = {
+    f"studies/passages/images/{name}.png": Picture(f"{PLOTS}/{name}.png", 20)
+    for name in ("sweeps", "long_runs")
+}

@@ -22,13 +22,4 @@ rule rigs:
         "scripts/rigs.py"
 
 
-use rule images as rigs_image with:
-    input:
-        rules.rigs.output.png,
-    output:
-        "docs/images/rigs.png",
-    log:
-        f"{RESULTS}/logs/rigs_image.log",
-    params:
-        colours=12,
-        shrink=2,
+PICTURES["rigs_image"] = {"docs/images/rigs.png": Picture(rules.rigs.output.png, 12, 2)}

@@ -145,15 +145,7 @@ rule rotor:
         lambda wildcards: rules.rotor_patterns.output if rotor_plan().patterns else [],
 
 
-use rule images as rotor_image with:
-    input:
-        f"{PLOTS}/rotor.png",
-        f"{PLOTS}/rotor_sweeps.png",
-    output:
-        "studies/rotor/images/rotor.png",
-        "studies/rotor/images/rotor_sweeps.png",
-    log:
-        f"{RESULTS}/logs/rotor_image.log",
-    params:
-        colours=64,
-        shrink=2,
+PICTURES["rotor_image"] = {
+    f"studies/rotor/images/{name}.png": Picture(f"{PLOTS}/{name}.png", 64, 2)
+    for name in ("rotor", "rotor_sweeps")
+}

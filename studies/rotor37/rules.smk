@@ -14,13 +14,6 @@ ROTOR37_FIGURES = [
     "wear_inclined",
 ]
 
-ROTOR37_SHOWN = [
-    "response",
-    "direct",
-    "spectrum_coated",
-    "wear_straight",
-]  # on its page
-
 
 @cache
 def rotor37_plan():
@@ -211,15 +204,12 @@ rule rotor37_coating:
         "scripts/rotor37_coating.py"
 
 
-use rule images as rotor37_images with:
-    input:
-        [f"{ROTOR37}/figures/{name}.png" for name in ROTOR37_SHOWN],
-    output:
-        [f"studies/rotor37/images/rotor37_{name}.png" for name in ROTOR37_SHOWN],
-    log:
-        f"{RESULTS}/logs/rotor37_images.log",
-    params:
-        colours=12,
+PICTURES["rotor37_images"] = {
+    f"studies/rotor37/images/rotor37_{name}.png": Picture(
+        f"{ROTOR37}/figures/{name}.png", 12
+    )
+    for name in ("response", "direct", "spectrum_coated", "wear_straight")
+}
 
 
 # The reference numbers of the repository, once they are computed anew

@@ -328,23 +328,12 @@ rule margins:
 if "source" not in config["blade"]:
     ADDED_TO_ALL["margins"] = rules.margins.output
 
-
-# The pictures of the pages, with as few colours as each does with
-PICTURES = {
-    "docs/images/margins": 48,
-    "studies/variations/images/robustness": 20,
-    "studies/variations/images/identification": 8,
+PICTURES["margins_image"] = {
+    "docs/images/margins.png": Picture(f"{PLOTS}/margins.png", 48)
 }
-
-
-use rule images as variations_image with:
-    input:
-        lambda wildcards: f"{PLOTS}/{Path(wildcards.picture).name}.png",
-    output:
-        "{picture}.png",
-    log:
-        f"{RESULTS}/logs/variations_image/{{picture}}.log",
-    wildcard_constraints:
-        picture="|".join(PICTURES),
-    params:
-        colours=lambda wildcards: PICTURES[wildcards.picture],
+PICTURES |= {
+    f"{name}_image": {
+        f"studies/variations/images/{name}.png": Picture(f"{PLOTS}/{name}.png", colours)
+    }
+    for name, colours in (("robustness", 20), ("identification", 8))
+}

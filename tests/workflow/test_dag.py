@@ -154,10 +154,11 @@ def test_quick_study_can_draw_every_figure_and_the_calibration_is_planned_when_a
     said = r"^bladerub: ([\d,]+) of \1 runs of the study .*; \d+ jobs, about \d+ min"
     assert re.search(said, planned, re.MULTILINE)
     assert {f"fig{n:02}" for n in range(1, 20)} == set(re.findall(r"results/figures/(fig\d\d)", planned))
-    plan = workspace.plan({}, "calibration")
-    assert plan.keys() == {"compile_kernel", "variation", "calibration"}
+    assert workspace.plan({}, "calibration").keys() == {"compile_kernel", "variation", "calibration"}
 
 
 @pytest.mark.nightly
 def test_targets_that_are_not_part_of_all_can_be_made(copied_study, tiny):
-    copied_study.build(tiny, "finer_bars", "more_nodes", "rigid_convergence", "accuracy", "steps", "heat")
+    copied_study.build(
+        tiny, "finer_bars", "more_nodes", "rigid_convergence", "accuracy", "steps", "heat", "rigs_image"
+    )
