@@ -47,6 +47,8 @@ rule accuracy:
         f"{RESULTS}/benchmarks/accuracy.tsv"
     resources:
         runtime=minutes(30),
+    params:
+        peaks=PEAKS,
     script:
         "scripts/accuracy.py"
 
@@ -70,6 +72,17 @@ rule steps:
         runtime=minutes(20),
     params:
         dpi=DPI,
+        simulated={
+            key: config[key]
+            for key in (
+                "contact",
+                "casings",
+                "coatings",
+                "speeds",
+                "solver",
+                "analysis",
+            )
+        },
     script:
         "scripts/steps.py"
 

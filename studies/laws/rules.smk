@@ -34,6 +34,9 @@ rule heat:
         f"{RESULTS}/benchmarks/heat.tsv"
     resources:
         runtime=minutes(5),
+    params:
+        simulated=lambda wildcards: asdict(run_spec(STUDY, STRAIGHT, 0.0)),
+        analysis=config["analysis"],
     script:
         "scripts/heat.py"
 

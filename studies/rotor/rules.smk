@@ -105,6 +105,10 @@ rule rotor_patterns:
     priority: 1
     params:
         patterns=lambda wildcards: rotor_plan().patterns,
+        simulated=lambda wildcards: [
+            asdict(run_spec(STUDY, combination.case, combination.f_omega))
+            for combination in rotor_plan().patterns.draws
+        ],
     script:
         "scripts/rotor_patterns.py"
 

@@ -27,6 +27,11 @@ def variations_plan(kind):
 identification_plan = partial(variations_plan, "identification")
 
 
+def identification_sampling(wildcards):
+    """All but results that determines which sets are drawn: a changed one is a reason to run."""
+    return identification_plan().sampling(STUDY)
+
+
 @cache
 def determining_sets(kind, job):
     """All of plan and study that determines what the sets of a job show: a changed one is a reason to run."""
@@ -196,9 +201,7 @@ rule identification_wave:
         runtime=minutes(5),
     params:
         plan=PLANS["identification"],
-        ranges=lambda wildcards: [
-            (factor.name, factor.ranges) for factor in identification_plan().factors
-        ],
+        sampling=identification_sampling,
         drawn=lambda wildcards: identification_plan().size(int(wildcards.wave)),
     script:
         "scripts/identification_wave.py"
@@ -226,6 +229,7 @@ rule identification_left:
         runtime=minutes(120),
     params:
         plan=PLANS["identification"],
+        sampling=identification_sampling,
         remaining=lambda wildcards: identification_plan().remaining,
     script:
         "scripts/identification_left.py"
@@ -246,6 +250,7 @@ rule identification_candidates:
         runtime=minutes(5),
     params:
         plan=PLANS["identification"],
+        sampling=identification_sampling,
         wanted=lambda wildcards: identification_plan().candidates.pairs,
         shift=lambda wildcards: identification_plan().candidates.shift,
     script:

@@ -19,16 +19,16 @@ def with_variant(table: pd.DataFrame, columns: Sequence[str]) -> pd.DataFrame:
 
 def plain(table: pd.DataFrame) -> pd.DataFrame:
     """Return the rows that are of no variant, without the column."""
-    return _filled(table).query("variant == ''").drop(columns="variant")
+    return filled(table).query("variant == ''").drop(columns="variant")
 
 
 def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
     """Return the rows of one coating."""
-    filled = _filled(table)
-    matches = [filled[name] == value for name, value in asdict(case).items()]
+    named = filled(table)
+    matches = [named[name] == value for name, value in asdict(case).items()]
     return table[np.logical_and.reduce(matches)]
 
 
-def _filled(table: pd.DataFrame) -> pd.DataFrame:
+def filled(table: pd.DataFrame) -> pd.DataFrame:
     """Return `table` with the column, as text: an empty cell of a file is read as NaN."""
     return table.assign(variant=table["variant"].fillna("") if "variant" in table else "")

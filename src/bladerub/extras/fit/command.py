@@ -31,8 +31,9 @@ def add_to(commands: Any) -> None:
 def fit_coating(options: argparse.Namespace) -> None:
     """Fit the law to the table that the command line names, and print the parameters."""
     from bladerub.extras.fit.interface import fit_coating as fit
+    from bladerub.study.grid import modulus_unit
 
-    unit = inputs.read_config(options).contact.modulus_unit
+    config = inputs.read_config(options)
     result = fit(options.table, strain_unit=options.strain_unit, stress_unit=options.stress_unit)
     names = [parameter.name for parameter in result.parameters]
     figures = {
@@ -47,8 +48,8 @@ def fit_coating(options: argparse.Namespace) -> None:
             for name, row in zip(names, result.covariance, strict=True)
         },
         "config": {
-            "modulus_unit": unit,
-            **{name: result[name].value / unit for name in ("E", "K", "yield_stress")},
+            "modulus_unit": config.contact.modulus_unit,  # times contact.scale.modulus is what E is given in
+            **{name: result[name].value / modulus_unit(config) for name in ("E", "K", "yield_stress")},
         },
     }
     inputs.show(options, figures, _in_words)
@@ -74,9 +75,7 @@ def _in_words(figures: dict[str, Any]) -> str:
             "",
         ]
     config = figures["config"]
-    mpa = {
-        name: f"{config[name] * config['modulus_unit'] / 1e6:.4g} MPa" for name in ("E", "K", "yield_stress")
-    }
+    mpa = {row["name"]: f"{row['value'] / 1e6:.4g} MPa" for row in rows if row["unit"] == "Pa"}
     lines += [
         "for the config:",
         "",

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -114,6 +114,11 @@ class Plan:
         own = {factor.name: factor.own(study) for factor in self.factors}
         sets = [own, *(own | values for values in self.sets.values())]
         return np.array([[f.position(values[f.name]) for f in self.factors] for values in sets])
+
+    def sampling(self, study: Config) -> dict[str, Any]:
+        """Return all but results of earlier waves that determines the sets of an identification."""
+        factors = [(f.name, f.ranges, f.logarithmic, f.multiple_of) for f in self.factors]
+        return {"seed": self.seed, "factors": factors, "listed": self.listed(study).tolist()}
 
 
 def read(kind: str, path: str | Path, key: str | None = None) -> Plan:

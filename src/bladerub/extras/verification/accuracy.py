@@ -13,6 +13,7 @@ from bladerub.extras.verification.response import CASE_COLUMNS
 from bladerub.extras.verification.verify import TOLERANCE, StudyRun, VerifiedRun, draw, verify_runs
 from bladerub.io.plain import plain
 from bladerub.settings.study import Config
+from bladerub.study.variants import with_variant
 
 DRAWS = {"all": [(1, 40), (2, 40), (3, 40)], "important": [(1, 100)]}
 """Seeds of the draws and numbers of runs, from all of the study and from those that claims rest on."""
@@ -44,7 +45,7 @@ def table(
             for number, verified in enumerate(verify_runs(blade, config, runs), 1):
                 rows.append([name, seed, *_cells(verified)])
                 report(f"{name}, seed {seed}: {number} of {len(runs)}, {verified.run.name}")
-    return pd.DataFrame(rows, columns=COLUMNS)
+    return with_variant(pd.DataFrame(rows, columns=[*COLUMNS, "variant"]), COLUMNS)
 
 
 def _cells(verified: VerifiedRun) -> list[Any]:
@@ -53,6 +54,7 @@ def _cells(verified: VerifiedRun) -> list[Any]:
         *(getattr(case, name) for name in (*CASE_COLUMNS, "law")),
         *(verified.run.f_omega, verified.status, *verified.error, *spread),
         *(verified.is_sensitive, verified.energy_residual, verified.speedup, verified.seconds.study),
+        case.variant,
     ]
 
 

@@ -28,6 +28,7 @@ from bladerub.contact.strips import strip_width
 from bladerub.extras.verification.response import CASE_COLUMNS, Response, listed
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, element_law, run_spec
+from bladerub.study.variants import with_variant
 
 REFINEMENTS = (1, 2, 4)
 """How many times finer the bars are; 1 are the study's."""
@@ -59,7 +60,7 @@ def finer_bars(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.D
         )
         for times in REFINEMENTS
     }
-    return compared("elements", models, config, peaks)
+    return _table(compared("elements", models, config, peaks))
 
 
 def more_nodes(config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
@@ -70,13 +71,12 @@ def more_nodes(config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
     """
     blades = {n: blade_with(config, n) for n in NODES}
     models = {n: Model(blade, partial(_along_chord, blade)) for n, blade in blades.items()}
-    return compared("interface_nodes", models, config, peaks).assign(
-        cpu_s=[
-            _seconds(blade, config, case, float(peak.f_peak))
-            for case, peak in listed(peaks)
-            for blade in blades.values()
-        ]
-    )
+    seconds = [
+        _seconds(blade, config, case, float(peak.f_peak))
+        for case, peak in listed(peaks)
+        for blade in blades.values()
+    ]
+    return _table(compared("interface_nodes", models, config, peaks).assign(cpu_s=seconds))
 
 
 def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
@@ -100,8 +100,12 @@ def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd
                 np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear),
             )
             what = (*astuple(case)[: len(CASE_COLUMNS)], peak.order, number)
-            rows.append((*what, speed, amplitude, *changes, response.run(start).status))
-    return pd.DataFrame(rows, columns=[*CASE_COLUMNS, "order", column, *_COMPARED])
+            rows.append((*what, speed, amplitude, *changes, response.run(start).status, case.variant))
+    return pd.DataFrame(rows, columns=[*CASE_COLUMNS, "order", column, *_COMPARED, "variant"])
+
+
+def _table(rows: pd.DataFrame) -> pd.DataFrame:
+    return with_variant(rows, [column for column in rows if column != "variant"])
 
 
 def with_finer_bars(blade: ReducedBlade, spec: RunSpec, times: int) -> RunSpec:

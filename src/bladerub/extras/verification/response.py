@@ -16,6 +16,7 @@ from bladerub.settings.analysis import Analysis
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.spectra import order_spectrum
+from bladerub.study.variants import filled
 
 CASES = [
     CoatingCase("2nd", *layer)
@@ -28,8 +29,8 @@ CASE_COLUMNS = ("casing", "E", "K", "theta")
 
 def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
     """List coating and row of the peaks of the `CASES` in a table ``peaks.csv``, or of all if it has none."""
-    rows = peaks[peaks.law == "theta"].dropna(subset=["f_peak"]).itertuples()
-    described = [(CoatingCase(row.casing, row.E, row.K, row.theta), row) for row in rows]
+    rows = filled(peaks[peaks.law == "theta"]).dropna(subset=["f_peak"]).itertuples()
+    described = [(CoatingCase.described(row._asdict()), row) for row in rows]
     return [pair for pair in described if pair[0] in CASES] or described
 
 

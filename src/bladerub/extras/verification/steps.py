@@ -18,6 +18,7 @@ from bladerub.extras.verification.response import CASE_COLUMNS
 from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, TOLERANCE, StudyRun
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec, speeds
+from bladerub.study.variants import with_variant
 
 TOLERANCES = (0.1, 0.03, 0.01, 0.003)
 
@@ -63,7 +64,7 @@ def table(
     for number, run in enumerate(runs, 1):
         rows += _rows(blade, config, run)
         report(f"{number} of {len(runs)}, {run.name}")
-    return pd.DataFrame(rows, columns=COLUMNS)
+    return with_variant(pd.DataFrame(rows, columns=[*COLUMNS, "variant"]), COLUMNS)
 
 
 def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[Any]]:
@@ -92,4 +93,5 @@ def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[A
             *(run.case.law, run.f_omega, tolerance, steps[tolerance]),
             steps[tolerance] * spec.coating.n_elements,
             *(errors[tolerance], spread >= max(error / 2, TOLERANCE), result.energy.residual),
+            run.case.variant,
         ]
