@@ -81,9 +81,11 @@ def peak_sections(
 
     There are one or two `sections`; the other arguments are as of `spectrum_map`.
     """
-    figure = new_figure(PAGE, 0.66 * PAGE)
+    figure = new_figure(PAGE, 0.7 * PAGE)
     spectrum, curves = figure.subplots(1, 2, sharey=True, width_ratios=[1.5, 1])
-    _draw_spectrum(spectrum, coating, amplitude_range, f_max, scales, "(a) ", location="bottom", aspect=40)
+    _draw_spectrum(spectrum, coating, amplitude_range, f_max, scales, location="bottom", aspect=40)
+    figure.suptitle(titles.coating(coating.case, scales.modulus_unit), fontsize="medium")
+    spectrum.set_title("(a) over frequency and speed", pad=16)
     _add_legend(spectrum, scales)
     ray = coating.f_omega[-1] * np.array([0, 1])
     for section, look in zip(sections, _LOOKS, strict=False):
@@ -95,7 +97,7 @@ def peak_sections(
     curves.set(xlim=(0, 1.1 * end), xlabel="amplitude (mm)")
     curves.tick_params(labelleft=True)
     legend = curves.legend(
-        loc="upper center", bbox_to_anchor=(0.45, -0.11), title="shaded: searched speeds", title_fontsize=7
+        loc="upper center", bbox_to_anchor=(0.45, -0.13), title="shaded: searched speeds", title_fontsize=7
     )
     legend.set_in_layout(False)  # it is in the room that the colour bar makes
     return figure
@@ -107,7 +109,6 @@ def _draw_spectrum(
     amplitude_range: tuple[float, float],
     f_max: float,
     scales: Scales,
-    panel: str = "",
     **colour_bar,
 ) -> None:
     speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.spectrum_amplitude)
@@ -142,7 +143,7 @@ def _draw_spectrum(
         xlabel=r"frequency $f\,/\,f_1(0)$",
         ylabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
     )
-    axes.set_title(panel + titles.coating(coating.case, scales.modulus_unit), pad=16)
+    axes.set_title(titles.coating(coating.case, scales.modulus_unit), pad=16)
     label = "amplitude of node 1, radial (mm, log scale)"
     axes.figure.colorbar(mesh, ax=axes, label=label, extend="both", pad=0.015, **colour_bar)
 
