@@ -368,12 +368,12 @@ WITH_MODULI = any(
     and not case.variant
     for case in coating_cases(STUDY)
 ) and {4, 6} <= set(peak_orders(STUDY, "2nd"))
-# Casings of which no figure of the paper shows a spectrum: that of each of their coatings is drawn, and its wear map
-SHOWN = {
-    case.casing
-    for case in (LOBED, SOFT, CRITICAL, STRAIGHT, INCLINED)
-    if in_study(case)
-}
+# Spectrum and wear map of each coating are drawn on casings that no figure of the paper shows, and in a small study of
+# others than the paper's
+OF_PAPER = [LOBED, SOFT, CRITICAL, STRAIGHT, INCLINED]
+SHOWN = {case.casing for case in OF_PAPER if in_study(case)}
+if len(COATINGS) <= 12 and not in_study(*OF_PAPER):
+    SHOWN = set()
 OTHER = [case.name for case in coating_cases(STUDY) if case.casing not in SHOWN]
 PLANNED = {
     "fig01_blade": True,
