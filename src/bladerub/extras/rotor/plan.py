@@ -106,13 +106,15 @@ def read_plan(path: str | Path, config: Config) -> Plan:
     sections = {"groups": plan.groups, "sweeps": plan.sweeps or {}}
     sections["patterns.groups"] = plan.patterns.groups if plan.patterns else {}
     pairs: dict[str, list[tuple[Combination, int]]] = {}
+    named: dict[str, Combination] = {}
     for section, groups in sections.items():
         pairs[section] = []
         for name, group in groups.items():
-            if problem := _problem(group, config):
+            members = list(_combinations_of(group))
+            if problem := _problem(group, config) or _same_name(members, named):
                 key = f"{section}.{name}"
                 raise ConfigError.at(located.locations()[key], f"{key}.{problem}")
-            pairs[section] += _combinations_of(group)
+            pairs[section] += members
     followed = dict(pairs.pop("patterns.groups"))
     combinations, draws = {}, {}
     for combination, n in itertools.chain(*pairs.values()):
@@ -140,6 +142,16 @@ def _problem(group: Group, config: Config) -> str | None:
     fastest, highest = max(group.f_omega), config.reduction.f_omega_max
     if fastest > highest:
         return f"f_omega: {fastest:g}: must be at most reduction.f_omega_max = {highest:g}"
+    return None
+
+
+def _same_name(members: list[tuple[Combination, int]], named: dict[str, Combination]) -> str | None:
+    """Enter the combinations of a group in `named`; say which would share the folder of another."""
+    for combination, _ in members:
+        first = named.setdefault(combination.name, combination)
+        if first != combination:
+            speeds = f"{first.f_omega:g} and {combination.f_omega:g}"
+            return f"f_omega: {speeds} would both be {combination.name}; leave one out"
     return None
 
 
