@@ -1,9 +1,12 @@
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import pytest
 
+from bladerub.extras.plots.rotor import rotor
 from bladerub.extras.rotor import pattern, summary
-from bladerub.extras.rotor.plan import Combination, read_plan
+from bladerub.extras.rotor.plan import Combination, Patterns, Plan, read_plan
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import CoatingCase
 
@@ -34,9 +37,8 @@ def test_the_distribution_of_known_draws():
     values = np.random.default_rng(1).permutation(np.arange(1, 200) / 100)
     harmonic = np.where(np.arange(199) < 150, 2, 4)
     status = np.where(np.arange(199) < 20, "unbounded", "completed")
-    draws = pd.DataFrame(dict.fromkeys(summary.DRAWS, 1.0), index=range(199))
+    draws = pd.DataFrame(dict.fromkeys(summary.DRAWS, 1.0) | {"longest_share": np.nan}, index=range(199))
     draws = draws.assign(casing="2nd", status=status, amplification=values, wear_harmonic=harmonic)
-    draws["longest_share"] = np.nan
     found = summary.combinations(draws).iloc[0]
     assert found.amplification_median == pytest.approx(1.0)
     assert (found.amplification_p05, found.amplification_p95) == pytest.approx((0.109, 1.891))
@@ -45,6 +47,16 @@ def test_the_distribution_of_known_draws():
     assert np.isnan(found.longest_share_median)
     # order statistics 86 and 114 of 199 hold the median with 95 %
     assert (found.amplification_low, found.amplification_high) == pytest.approx((0.86, 1.14))
+    assert list(summary.combinations(summary.first_half(draws.head(1)))) == summary.COLUMNS
+
+
+def test_rows_that_leave_the_limit_before_the_first_look_are_counted(config, monkeypatch):
+    monkeypatch.setattr(pattern, "simulate_row", lambda *described: SimpleNamespace(unbounded=(1,)))
+    plan = Plan(1, {}, {}, (), (), Patterns(4, 2, {Combination(CASE, 0.346, 4, 5e-5): 3}))
+    (drift,) = pattern.drifts(pattern.table(config, None, plan)).to_dict("records")
+    assert (drift["rows"], drift["followed_rows"]) == (3, 0)
+    assert np.isnan(drift["pattern_drift_median"])
+    assert rotor(plan, pd.DataFrame()).texts  # of no rows
 
 
 @pytest.mark.parametrize("rate", [0.08, -0.08])

@@ -31,6 +31,10 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
     for combination in (plan.combinations[name] for name in plan.compared):
         if combination.blades > 1 or combination != combination.alone:
             groups.setdefault((combination.case, combination.f_omega), []).append(combination)
+    if not groups:
+        figure = new_figure(PAGE, 1.0)
+        figure.text(0.5, 0.5, "single nominal blades only", ha="center", fontsize=8)
+        return figure
     lines = _lines(list(groups.items()))
     widest = max(map(_line_width, lines))
     figure = new_figure(max(PAGE, 0.35 * widest + 2.0), 5.8 * len(lines))

@@ -34,13 +34,18 @@ def table(config: Config, blade: ReducedBlade, plan: Plan) -> pd.DataFrame:
 
 
 def _of_row(blade: ReducedBlade, spec: RunSpec, row: Row, patterns: Patterns) -> list[dict[str, float]]:
-    """Look at the wear every few revolutions, as far as the row is within the displacement limit."""
+    """Look at the wear every few revolutions, as far as the row is within the displacement limit.
+
+    NaN for the first look if it is not there.
+    """
     ends, coefficients = [], []
     before = np.zeros(spec.coating.n_elements)
     for last in range(patterns.interval, spec.revolutions + 1, patterns.interval):
         # a shorter run is the beginning of the longer one, bit by bit
         result = simulate_row(blade, replace(spec, revolutions=last), row)
         if result.unbounded:
+            if not ends:
+                ends, coefficients = [last], [np.nan]
             break
         worn = result.wear.mean(axis=0)
         ends.append(last)

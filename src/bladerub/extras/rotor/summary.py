@@ -107,7 +107,7 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
             quantiles = _quantiles(of_what[name].dropna().to_numpy())
             row |= {f"{name}_{statistic}": value for statistic, value in quantiles.items()}
         rows.append(row)
-    return pd.DataFrame(rows)[COLUMNS]
+    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def first_half(table: pd.DataFrame) -> pd.DataFrame:
