@@ -34,12 +34,10 @@ PEAK_TURNS = 2_000_000
 PEAK_CHAINS = 12
 """Products and sums in progress at once: more than a processor needs to be busy, fewer than its registers."""
 
-FLOPS_PER_MODE = 39
-"""Of a step by itself: recurrence 3, damping loss 4, displacement of 16 coordinates of the tip 32."""
-FLOPS_PER_FLIGHT = 61
-"""Of a mode in free flight: increment and last step 9, damping loss 12, mean 4, bound 4, tip 32."""
-FLOPS_PER_FORCED_MODE = 32
-FLOPS_PER_RESPONSE = 2 * 16 * 16
+FLOPS_PER_MODE = 7
+"""Of a step by itself: recurrence 3, damping loss 4; 2 more for each coordinate of the tip."""
+FLOPS_PER_FLIGHT = 29
+"""Of a mode in free flight: increment and last step 9, damping loss 12, mean 4, bound 4; and the tip."""
 FLOPS_PER_ELEMENT = 17 + 52  # force once, and wear with its ledger
 FLOPS_PER_NODE = 60
 FLOPS_PER_TURN = PEAK_CHAINS * LANES * 2
@@ -150,10 +148,12 @@ def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
         sum(getattr(revolution, count) for revolution in progress)
         for count in ("n_steps", "n_flights", "n_contact_steps")
     )
-    contact = FLOPS_PER_FORCED_MODE * n + FLOPS_PER_RESPONSE
-    contact += LANES * (n_under * FLOPS_PER_ELEMENT + FLOPS_PER_NODE)
+    tip = 2 * 2 * blade.n_interface  # product and sum for each coordinate
+    contact = tip * n + tip * blade.n_interface * 2
+    contact += blade.n_interface * (n_under * FLOPS_PER_ELEMENT + FLOPS_PER_NODE)
     single = steps - flights * simulation.flight.n_steps
-    return (n * (FLOPS_PER_MODE * single + FLOPS_PER_FLIGHT * flights) + contact * touching) / steps
+    free = (FLOPS_PER_MODE + tip) * single + (FLOPS_PER_FLIGHT + tip) * flights
+    return (n * free + contact * touching) / steps
 
 
 def middle_run(config: Config) -> RunSpec:

@@ -16,12 +16,15 @@ from bladerub.contact.kernel.newton import MAX_ITERATIONS, TOLERANCE
 from bladerub.contact.laws import module_of
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.spec import ElementLaw
+from bladerub.contact.start import by_lane_of
 from bladerub.contact.tip import coverage, relief
 
 
 def arguments(law: ElementLaw, rule: Recurrence, simulation: Simulation) -> tuple:
     """Take from a run what `integrate` needs, copying what it changes."""
-    modes = rule.now, rule.before, rule.tip * rule.gain, np.ascontiguousarray(rule.tip), rule.compliance
+    lanes = by_lane_of(rule.n_nodes)
+    to_tip, compliance = lanes(rule.tip), lanes(np.transpose(lanes(rule.compliance)))
+    modes = rule.now, rule.before, to_tip * rule.gain, to_tip, compliance
     wear, q = simulation.state.wear.copy(), simulation.state.q[:, : rule.omega.size].copy()
     stator = simulation.stator
     element = module_of(law).Element(*stator.law)
@@ -38,20 +41,21 @@ def integrator(element_law: ElementLaw) -> Callable:
         coefficient, coefficient_before, by_force, to_tip, compliance = modes
         normal_factor, tangential_factor = stator.normal_factor, stator.tangential_factor
         gap, n_elements, radius = stator.initial_gap, stator.n_elements, tip.radius
-        force = np.zeros(16)
+        n = radius.size
+        force = np.zeros(2 * n)
         for step in range(displacement.size):
             q_next = coefficient * q[0] - coefficient_before * q[1] + force @ by_force
             q[2], q[1] = q[1], q[0]
             q[0] = q_next
             u = to_tip @ q_next
             travel = (step + 1) / steps_per_element % n_elements
-            approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
+            approach = np.sqrt((radius + u[:n]) ** 2 + u[n:] ** 2) - radius
             if force.any() or approach.max() > stator.minimum_gap[step // steps_per_element % n_elements]:
                 free = u
                 u = free + force @ compliance
-                approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
+                approach = np.sqrt((radius + u[:n]) ** 2 + u[n:] ** 2) - radius
                 for _ in range(MAX_ITERATIONS):
-                    position = tip.start + travel + u[8:] * tip.per_metre
+                    position = tip.start + travel + u[n:] * tip.per_metre
                     first = int(np.floor(position.min() - tip.half_width))
                     rows = np.arange(first, int(np.floor(position.max() + tip.half_width)) + 1)
                     offset = (rows + 0.5).reshape(-1, 1) - position
@@ -62,16 +66,16 @@ def integrator(element_law: ElementLaw) -> Callable:
                     slope, _ = law.tangent(element, depth, worn)
                     normal_force = np.sum(share * element_force, axis=0)
                     stiffness = np.sum(share * slope, axis=0)
-                    outward = radius + u[:8]
-                    unit = normal_force / np.sqrt(outward**2 + u[8:] ** 2)
+                    outward = radius + u[:n]
+                    unit = normal_force / np.sqrt(outward**2 + u[n:] ** 2)
                     force = np.concatenate(
                         (
-                            unit * (normal_factor * outward - tangential_factor * u[8:]),
-                            unit * (normal_factor * u[8:] + tangential_factor * outward),
+                            unit * (normal_factor * outward - tangential_factor * u[n:]),
+                            unit * (normal_factor * u[n:] + tangential_factor * outward),
                         )
                     )
                     u = free + force @ compliance
-                    residual = approach - np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) + radius
+                    residual = approach - np.sqrt((radius + u[:n]) ** 2 + u[n:] ** 2) + radius
                     if np.abs(residual).max() <= TOLERANCE:
                         break
                     approach = approach - residual / (1.0 + stator.self_compliance * stiffness)
