@@ -138,6 +138,7 @@ def test_what_is_no_usable_mesh_is_told(tmp_path):
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 9\n", "line 9: node 9 of element 1"),
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3,\n4, 5\n", "line 10: element 1 has 5 nodes"),
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 1, 4\n", "1 elements have"),
+        ("m.inp", TETRAHEDRON + "*NSET, NSET=A, GENERATE\n1, 4, 0\n", "line 9: has 1, 4, 0, must be"),
         ("m.inp", TETRAHEDRON + "*NGEN\n1, 6, 2\n", r"line 8: has \*NGEN, which makes nodes"),
         ("m.inp", TETRAHEDRON + "*INSTANCE, PART=A\n0, 5, 0\n", r"has \*INSTANCE, which moves its part"),
         ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=m.inp\n", "line 8: .* includes itself"),
