@@ -45,7 +45,7 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
         runs=dict(list(results.runs.groupby("name"))),
         doubts=doubts(results.accuracy, config.figures.nominal_speed),
         is_of_config=results.origin.get("provenance_config_sha256") == config_digest(config.plain()),
-        specs={case.casing: run_spec(config, case, 0.0) for case in results.cases.values()},
+        specs={case.casing: run_spec(config, case.with_own(), 0.0) for case in results.cases.values()},
         modulus_unit=modulus_unit(config),
         degrees=math.degrees,
         campbell=_campbell(results),

@@ -22,13 +22,13 @@ F1 = 192.0
 OVERLAY = {
     "coatings": [
         {"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0, 0.15]},
-        {"casing": "2nd", "coating": "rigid", "friction": [0.0]},
+        {"casing": "2nd", "coating": "rigid", "friction": [0.0], "damping_ratio": [0.001]},
     ],
     "speeds": {"start": 0.02, "stop": 0.4, "step": 0.01, "extra": []},
     "analysis": {"histories": []},
     "ensemble": {"members": 0},
 }
-STRAIGHT, INCLINED, RIGID = "2nd_E2_K0.5_theta0", "2nd_E2_K0.5_theta0.15", "2nd_rigid_mu0"
+STRAIGHT, INCLINED, RIGID = "2nd_E2_K0.5_theta0", "2nd_E2_K0.5_theta0.15", "2nd_rigid_mu0_xi0.001"
 
 
 def tables_of(text):
@@ -92,6 +92,7 @@ def test_a_page_whole_by_itself_has_the_numbers_of_the_tables_with_units(study, 
     assert not re.search(r"<script|<link |src=\"(?!data:)|url\((?!#)", page)
     assert all(f'id="{anchor}"' in page for anchor in re.findall(r'<a href="#([\w-]+)"', page))
     peaks, shown_tables = tables.read(study / "tables" / "peaks.csv"), tables_of(page)
+    assert {"quantity": "damping ratio", "value": "0.23 % of every mode"} in shown_tables["Inputs"]
     rows = shown_tables["Peak of"]
     assert [row["coating"] for row in rows] == [*2 * [STRAIGHT], *2 * [RIGID], *2 * [INCLINED]]
     shown = {(row["coating"], int(row["engine order"])): row for row in rows}
