@@ -110,8 +110,17 @@ class Plan:
         }
 
     def listed(self, study: Config) -> np.ndarray:
-        """Return the positions of the study's own values, then of the listed sets, (1 + n_sets, d)."""
+        """Return the positions of the study's own values, then of the listed sets, (1 + n_sets, d).
+
+        Raises `ConfigError` if one of the study's own is outside the range of its factor.
+        """
         own = {factor.name: factor.own(study) for factor in self.factors}
+        for factor in self.factors:
+            low, high = factor.range
+            if not low <= own[factor.name] <= high:
+                key = f"factors.{factor.name}.sets.{next(iter(factor.ranges))} = {format_value([low, high])}"
+                right = f"must hold the study's own value, {own[factor.name]:g}"
+                raise ConfigError.at(factor.location, f"{key}: {right}")
         sets = [own, *(own | values for values in self.sets.values())]
         return np.array([[f.position(values[f.name]) for f in self.factors] for values in sets])
 
@@ -184,6 +193,9 @@ def _identification(content: Mapping[str, Located]) -> Plan:
             f"waves = {format_value(list(plan.waves))}: the first must be at least "
             f"{plan.waves[0] + missing}, or no target has an emulator after it",
         )
+    if (number := numbers["number"]) > (most := plan.first(len(plan.waves) + 1) - 1):
+        text = f"candidates.number = {number}: must be at most {most}, the sets of all waves but the study's"
+        raise ConfigError.at(candidates["number"].location, text)
     return plan
 
 

@@ -126,6 +126,8 @@ def test_only_what_determines_a_sample_is_a_reason_to_run_it(config, make):
     assert list(job.sets) == [12, 13, 14, 15]
     before = determinants(config, plan, job)
     assert [factor.name for factor in plan.factors] == [entry[0] for entry in before[8:]]
+    with pytest.raises(ConfigError, match=r"factors.damping.sets.* must hold the study's own value, 0.02"):
+        plan.listed(config.replaced("contact.damping_ratio", 0.02))
     after = determinants(stiffer, plan, job)
     assert not set(map(str, after[:8])) & set(map(str, before[:8]))
 
