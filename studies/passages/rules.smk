@@ -18,7 +18,10 @@ def swept_maps(wildcards):
 def planned_sweep(wildcards):
     """All that determines a sweep but the blade: a changed one is a reason to run."""
     case = case_from_name(STUDY, wildcards.coating)
-    return asdict(sweep_spec(STUDY, case, wildcards.direction, float(wildcards.rate)))
+    with bladerub.io.errors.exit_on_error():
+        return asdict(
+            sweep_spec(STUDY, case, wildcards.direction, float(wildcards.rate))
+        )
 
 
 rule sweeps:

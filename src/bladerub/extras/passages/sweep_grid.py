@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from bladerub.contact.spec import RunSpec
+from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 
@@ -27,9 +28,15 @@ def swept_cases(config: Config) -> list[CoatingCase]:
 
 
 def sweep_spec(config: Config, case: CoatingCase, direction: str, rate: float) -> SweepSpec:
-    """Describe one sweep in SI units; it begins at rest, on a new coating."""
-    settings = config.sweeps
-    ends = settings.start, settings.stop or config.reduction.f_omega_max
+    """Describe one sweep in SI units; it begins at rest, on a new coating.
+
+    Raises `BadInput` if the range of the blade ends below the speeds of the sweep.
+    """
+    settings, highest = config.sweeps, config.reduction.f_omega_max
+    if settings.start >= highest:
+        right = f"must be below reduction.f_omega_max = {highest:g}"
+        raise BadInput(f"sweeps.start = {settings.start:g}: {right}")
+    ends = settings.start, settings.stop or highest
     start, stop = ends if direction == "up" else ends[::-1]
     run = replace(run_spec(config, case, start), revolutions=0)
     return SweepSpec(run, stop, rate, settings.speed_step)
