@@ -114,7 +114,7 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
     """
     parameters: Mapping[str, Parameter] = {}
     for node in _statements(source):
-        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == "PARAMETERS":
+        if isinstance(node, ast.Assign | ast.AnnAssign) and "PARAMETERS" in _assigned(node):
             try:
                 parameters = _PARAMETERS.validate_python(ast.literal_eval(node.value))
             except (TypeError, ValueError, RecursionError, MemoryError) as error:
@@ -177,6 +177,12 @@ def _names_in(source: str) -> set[str]:
             names.add(node.name)
         elif isinstance(node, ast.Import | ast.ImportFrom):
             names |= {alias.asname or alias.name for alias in node.names}
-        elif isinstance(node, ast.Assign):
-            names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            names |= _assigned(node)
     return names
+
+
+def _assigned(node: ast.Assign | ast.AnnAssign) -> set[str]:
+    """Names that a statement gives a value to; an annotation alone gives none."""
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target] if node.value else []
+    return {target.id for target in targets if isinstance(target, ast.Name)}

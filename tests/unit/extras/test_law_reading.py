@@ -9,7 +9,7 @@ LAW = """
 from bladerub.contact.law import (
     Element, dissipated_energy, elastic_force, element, return_mapping, stored_energy, tangent
 )
-PARAMETERS = {"slope": ("Pa", 0.0, 10.0, "a slope")}
+PARAMETERS: dict = {"slope": ("Pa", 0.0, 10.0, "a slope")}
 """
 
 
