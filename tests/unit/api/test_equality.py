@@ -74,6 +74,8 @@ def test_maps_and_ensembles_are_written_whole(study, blade, sweep, planned, ense
     assert br.read_run(tmp_path / "ensemble.h5").wear.tolist() == ensemble.runs[0].wear.tolist()
     with pytest.raises(br.InputError, match="must be that of"):
         br.read_ensemble(tmp_path / "ensemble.h5", study.run("2nd", E=2, K=0.5, f_omega=0.19))
+    with pytest.raises(br.InputError, match="must be that of own"):
+        br.simulate_ensemble(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), own=ensemble.runs[0])
     *members, finer = (
         replace(sweep.coating, wear_node=None, lobes=sweep.coating.lobes + n) for n in range(3)
     )

@@ -28,7 +28,7 @@ from bladerub.extras.ensembles.settings import Ensemble as Settings
 from bladerub.extras.important_runs import chosen, judged, on_lobes, with_history
 from bladerub.io import hdf5
 from bladerub.io.equality import Comparable
-from bladerub.io.errors import DamagedFile
+from bladerub.io.errors import BadInput, DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -142,8 +142,10 @@ def make(
     """Compute the members of a coating that are missing or stale, and collect all in the file `path`.
 
     Returns the rows of their manifest. `coating` is its map, `runs_folder` that of its runs; other parameters
-    are those of `bladerub.study.job.compute_missing`.
+    are those of `bladerub.study.job.compute_missing`. Raises `BadInput` if the config asks for no members.
     """
+    if not config.ensemble.members:
+        raise BadInput("ensemble.members = 0: must be at least 1, or there is no ensemble to make")
     folder, planned = Path(runs_folder) / FOLDER, plan(config, coating)
     together = CoatingPlan(coating.case, tuple(run for member in planned for run in member.runs))
     rows = compute_missing(config, together, blade, folder, blade_digest, report, threads)

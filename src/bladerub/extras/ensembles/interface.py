@@ -152,7 +152,7 @@ def simulate_ensemble(
     Raises
     ------
     InputError
-        If the speed is outside the range of the blade, or there are no members.
+        If the speed is outside the range of the blade, there are no members, or `own` is of another run.
 
     Examples
     --------
@@ -165,6 +165,8 @@ def simulate_ensemble(
     if members < 1:
         raise InputError("members", members, "must be at least 1")
     blade.check_speed("f_omega", run.f_omega)
+    if own is not None:
+        _check(run, own, "own")
     start = np.append(0.0, starts(run.config.plugged("ensemble"), run.case, run.f_omega, members))
     drawn = [
         replace(run, spec=replace(run.spec, initial_displacement=displacement))
@@ -206,12 +208,17 @@ def read_ensemble(path: str | Path, run: StudyRun) -> Ensemble:
         raise DamagedFile(f"{path}: no ensemble, {_START} of its runs is missing")
     start = np.array([stored[_prefix(number)].attributes.pop(_START) for number in numbers])
     ensemble = Ensemble(run, start, tuple(run_of(stored, _prefix(number)) for number in numbers))
-    first, revolutions = ensemble.runs[0], run.spec.revolutions
+    _check(run, ensemble.runs[0], path)
+    return ensemble
+
+
+def _check(run: StudyRun, first: Run, origin: str | Path) -> None:
+    """Refuse a `run` that is not the `first` one of an ensemble, by coating, speed and length."""
+    revolutions = run.spec.revolutions
     if (first.case, first.f_omega, first.revolutions) != (run.case, run.f_omega, revolutions):
         content = f"{first.case.name}/{speed_name(first.f_omega)} of {first.revolutions} revolutions"
         request = f"{run.name} of {revolutions} revolutions"
-        raise InputError("run", request, f"must be that of {path}, {content}")
-    return ensemble
+        raise InputError("run", request, f"must be that of {origin}, {content}")
 
 
 def _prefix(number: int) -> str:

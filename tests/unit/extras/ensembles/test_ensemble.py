@@ -14,6 +14,7 @@ from bladerub.extras.ensembles.settings import Ensemble as Settings
 from bladerub.extras.further_columns import with_further
 from bladerub.extras.important_runs import chosen, judged, nearest_speed, on_lobes
 from bladerub.io import tables
+from bladerub.io.errors import BadInput
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.paper import WORN
@@ -129,6 +130,8 @@ def test_each_peak_has_three_speeds_each_history_its_own_and_claims_on_lobes_the
     config = changed(config, analysis={"histories": [history | {"f_omega": f} for f in (0.1, 0.2)]})
     assert expected_cost(config, CASE) == (2 + 2) * (2 + 3 * 2)
     assert expected_cost(config.replaced("ensemble.members", 0), CASE) == 0
+    with pytest.raises(BadInput, match=r"ensemble.members = 0"):
+        ensemble.make(config.replaced("ensemble.members", 0), *7 * [None])
 
 
 def test_runs_of_claims_on_lobes_are_repeated_and_not_followed(study, make_map):
