@@ -5,12 +5,13 @@ the same nodes as C3D20 or C3D10 elements: a static step with geometric nonlinea
 then the frequencies of small vibrations about it. Abaqus reads the same keywords.
 """
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from bladerub.io import atomic
+from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Material
 
 N_MODES = 10
@@ -47,9 +48,15 @@ def _in_lines(numbers: list[int]) -> list[str]:
     return [", ".join(map(str, row)) + ("," if row is not rows[-1] else "") for row in rows]
 
 
-def write_decks(folder: str | Path, f_omegas: Iterable[float], f1_hz: float, *body) -> list[Path]:
-    """Write a deck of `body`, the first arguments of `deck`, at each normalised speed into `folder`."""
+def write_decks(folder: str | Path, f_omegas: Sequence[float], f1_hz: float, *body) -> list[Path]:
+    """Write a deck of `body`, the first arguments of `deck`, at each normalised speed into `folder`.
+
+    Raises `BadInput` if two decks would have the same name.
+    """
     paths = {Path(folder) / f"blade_{f_omega:.4f}.inp": f_omega for f_omega in f_omegas}
+    if len(paths) < len(f_omegas):
+        speeds = " ".join(f"{f_omega:g}" for f_omega in f_omegas)
+        raise BadInput(f"--speeds {speeds}: must differ in four decimals, as the names of the decks do")
     for path, f_omega in paths.items():
         with atomic.writing(path) as stream:
             stream.write(deck(*body, 2 * np.pi * f_omega * f1_hz))
