@@ -85,8 +85,9 @@ def simulate_row(
     `blade` is the nominal one. A row of one nominal blade at angle 0 makes the run of
     `bladerub.contact.run.simulate`, to the last bit. `progress` is called with the number of revolutions done
     after each of them. Raises `ValueError` as `simulate`; and if neighbours are so close that they could
-    meet, a blade is so long that it touches all around the casing, or the disk couples modes that the scheme
-    does not resolve, that are too fast for its impulses or that it makes unstable.
+    meet, a blade is so long that it touches all around the casing or does not vibrate by its damping, or the
+    disk couples modes that the scheme does not resolve, that are too fast for its impulses or that it makes
+    unstable.
     """
     modes, seats, simulation = set_up_row(blade, spec, row)
     stored = partial(_stored, row, modes, seats)
@@ -168,9 +169,12 @@ class _Seat:
         row_blade: RowBlade,
         coating: Mapping[str, np.ndarray],
     ):
-        n_elements = spec.coating.n_elements
+        n_elements, damping_ratio = spec.coating.n_elements, spec.damping_ratio * row_blade.damping
+        if damping_ratio >= 1:
+            damping = f"damping = {row_blade.damping:g}"
+            raise ValueError(f"row: {damping} makes a damping ratio of {damping_ratio:g}; must be below 1")
         position = row_blade.angle % _TURN / _TURN * n_elements
-        self.spec = replace(spec, damping_ratio=spec.damping_ratio * row_blade.damping)
+        self.spec = replace(spec, damping_ratio=damping_ratio)
         self.row = int(position)  # of the shared coating, which it passes at the start
         self.modes = modes._replace(omega=modes.omega * row_blade.frequency_factors(modes.omega.size))
         seat = Seat(position - self.row, row_blade.length, coating)
