@@ -21,8 +21,12 @@ _OF_CHART = [
 
 
 def broken_limits(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
-    """Return for each row of the chart which of the limits it breaks, a column of bool for each."""
-    return pd.DataFrame({name: chart[LIMITED[name]] > limit for name, limit in limits if limit is not None})
+    """Return for each row of the chart which of the limits it breaks, a column of bool for each.
+
+    What is not known, such as the stress of runs that complete no revolution, is not within its limit.
+    """
+    known = {name: limit for name, limit in limits if limit is not None}
+    return pd.DataFrame({name: ~(chart[LIMITED[name]] <= limit) for name, limit in known.items()})
 
 
 def pareto(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:

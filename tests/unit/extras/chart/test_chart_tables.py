@@ -128,6 +128,8 @@ def test_the_recommended_coating_says_how_good_those_next_to_it_are_and_nothing_
     broken = choice.broken_limits(chart, limits)
     assert list(broken.wear) == [False, True, False, False, False]
     assert list(broken.amplitude) == [False] * 4 + [True]
+    stressed = chart.assign(alternating=[np.nan, 3e8, 1e8, 1e8, 1e8])  # not known of the first
+    assert list(choice.broken_limits(stressed, Limits(fatigue=2e8)).fatigue) == [True] * 2 + [False] * 3
 
 
 def test_the_search_is_put_to_the_study(config, make_map):
