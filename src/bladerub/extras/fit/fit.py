@@ -158,12 +158,12 @@ def _starts(curves: Sequence[Curve], unit: float, n: int) -> list[np.ndarray]:
     """Choose starting values: secant of the steepest points, for several elastic limits and exponents."""
     strain = np.concatenate([curve.strain for curve in curves])
     stresses = np.concatenate([curve.stress for curve in curves]) / unit
-    E = np.quantile(stresses[strain > 0] / strain[strain > 0], 0.9)
+    E = max(np.quantile(stresses[strain > 0] / strain[strain > 0], 0.9), 1e-6)
     fastest = max(curve.rate for curve in curves)
     starts = []
     for limit, exponent in product(_STARTS, (0.1, 0.3, 1.0) if n == 5 else (1.0,)):
         overstress = 0.5 * limit / fastest**exponent if n > 3 else 0.0
-        starts.append(np.array([max(E, 1e-6), 0.2 * E + 1e-6, limit, overstress, exponent])[:n])
+        starts.append(np.array([E, 0.2 * E + 1e-6, limit, overstress, exponent])[:n])
     return starts
 
 
