@@ -22,8 +22,9 @@ def further(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec) -> np.n
     """
     if blade.tip_slope is None:
         raise ValueError(
-            "contact.tip_turns = true: this blade has no tip_slope; build it again, or, if it is given by "
-            "matrices, list more nodes of its tip, or set it to false"
+            "contact.tip_turns = true: this blade has no tip_slope; build it again with a finer mesh "
+            "(blade.mesh.chordwise), or, if it is given by matrices, list more nodes of its tip, or set it "
+            "to false"
         )
     _, tangential = np.split(at_tip(blade, coordinates), 2)
     radius, curvature_radius = tip_radii(blade)
