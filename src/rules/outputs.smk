@@ -57,9 +57,10 @@ def described(**tables):
 
 
 def drawn(name, category, with_data=False):
-    """The files of a figure; those of all speeds have one caption."""
+    """The files of a figure; histories at further speeds have one caption."""
+    caption = "history" if name.startswith("history_") else name
     files = {
-        "png": shown(f"{PLOTS}/{name}.png", name.split("_0.")[0], category),
+        "png": shown(f"{PLOTS}/{name}.png", caption, category),
         "pdf": f"{PLOTS}/{name}.pdf",
     }
     data = described(data=f"{PLOTS}/{name}.csv") if with_data else {}

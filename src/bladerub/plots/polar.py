@@ -11,21 +11,34 @@ from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots import titles
 from bladerub.plots.scales import greatest
-from bladerub.plots.style import BLUE, COLUMN, DARK, FIRST, GREY, ORANGE, PAGE, SECOND, new_figure, styled
+from bladerub.plots.style import (
+    BLUE,
+    COLUMN,
+    DARK,
+    FIRST,
+    GREY,
+    ORANGE,
+    PAGE,
+    RED,
+    SECOND,
+    new_figure,
+    styled,
+)
 from bladerub.study.maps import CoatingMap
 
 _SHAPES = (
     {"color": ORANGE, "linestyle": (0, (6, 2)), "linewidth": 1.4},
     {"color": BLUE, "linestyle": (0, (1.5, 1.2)), "linewidth": 1.4},
-    {"color": DARK, "linestyle": "-", "linewidth": 2.0},
+    {"color": RED, "linestyle": "-.", "linewidth": 1.4},
 )
+_COMBINED = {"color": DARK, "linestyle": "-", "linewidth": 2.0}
 
 
 @styled
 def casing_polar(
     angle: np.ndarray, inward: Mapping[str, np.ndarray], radius: float, magnification: float
 ) -> Figure:
-    """Draw Fig. 5: the round casing of a `radius` (m) and up to three distorted ones.
+    """Draw Fig. 5: the round casing of a `radius` (m) and distorted ones, the last of which stands out.
 
     `inward` is the displacement of the inner surface (n,), m, by name of the shape, at the casing `angle`
     (n,), rad; it is drawn with a `magnification`.
@@ -36,7 +49,8 @@ def casing_polar(
     axes.plot(
         *closed(angle, np.full(np.size(angle), radius)), color=GREY, linewidth=1.0, label="round casing"
     )
-    for (name, displacement), line in zip(inward.items(), _SHAPES, strict=False):
+    looks = [*itertools.islice(itertools.cycle(_SHAPES), len(inward) - 1), _COMBINED]
+    for (name, displacement), line in zip(inward.items(), looks, strict=True):
         axes.plot(*closed(angle, radius - magnification * np.asarray(displacement)), label=name, **line)
     axes.set_rgrids(radius + magnification * largest * np.array([-1, 0, 1]), [])
     axes.set_rlim(0, radius + 1.1 * magnification * largest)
