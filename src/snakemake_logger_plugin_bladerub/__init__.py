@@ -6,6 +6,7 @@ The default profile names this plugin. Snakemake's own messages are those of ``-
 
 import argparse
 import logging
+import re
 import sys
 import textwrap
 import time
@@ -62,8 +63,10 @@ class LogHandler(LogHandlerBase):
 
     def _refusal(self, record: logging.LogRecord) -> str:
         # Snakemake reads the files of --configfile before the Snakefile, and names none of them
-        is_early = getattr(record, "event", None) == LogEvent.ERROR and not self._planned
-        return _refused_config() if is_early else ""
+        if getattr(record, "event", None) != LogEvent.ERROR or self._planned:
+            return ""
+        of_rule = re.search(r"^ *BadInput: (.+)", record.getMessage(), re.M)
+        return of_rule[1] if of_rule else _refused_config()
 
     def _is_shown(self, record: logging.LogRecord) -> bool:
         event, message = getattr(record, "event", None), record.getMessage()
@@ -106,15 +109,22 @@ def _failed_job(record: logging.LogRecord) -> str:
 
 
 def _refused_config() -> str:
-    """Say file, line and column of what is no YAML in the configs of the command line, if anything is."""
+    """Say which value, or file, line and column, is no config on the command line, if anything is."""
     from bladerub.config import files
     from bladerub.config.errors import ConfigError
 
-    parser = argparse.ArgumentParser(add_help=False)
+    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("--configfile", "--configfiles", nargs="+", default=[])
-    try:
-        for path in parser.parse_known_args(sys.argv[1:])[0].configfile:
+    parser.add_argument("--config", "-C", nargs="+", default=[])
+    options, _ = parser.parse_known_args(sys.argv[1:])
+    for entry in options.config:
+        if not re.match(r"[a-zA-Z_][\w-]*\w=", entry):
+            right = "must be a key at the top and its value, as in --config 'figures={dpi: 100}'"
+            return f"--config {entry}: {right}"
+    for path in options.configfile:
+        try:
             files.read(path)
-    except ConfigError as error:
-        return str(error)
+        except ConfigError as error:
+            is_target = not path.endswith((".yaml", ".yml"))
+            return f"{error}{'; targets go before --configfile' if is_target else ''}"
     return ""

@@ -12,6 +12,7 @@ import numpy as np
 from bladerub import plugins
 from bladerub.contact import laws
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec, TipProfile
+from bladerub.io.errors import BadInput
 from bladerub.settings.coatings import OnCasing
 from bladerub.settings.study import Config
 from bladerub.study.casings import casing_spec
@@ -154,13 +155,13 @@ def _case(casing: str, values: Mapping[str, float]) -> CoatingCase:
 def case_from_name(config: Config, name: str) -> CoatingCase:
     """Find the coating called `name` among those of the study and those that plug in (``COATINGS``).
 
-    Raises `ValueError` if none is.
+    Raises `BadInput` if none is.
     """
     further = (coatings(config) for coatings in plugins.loaded("COATINGS").values())
     for case in itertools.chain(coating_cases(config), *further):
         if case.name == name:
             return case
-    raise ValueError(f"coating {name} is not in the config; add it to coatings")
+    raise BadInput(f"coating {name} is not in the config; add it to coatings")
 
 
 def between(f_omega: np.ndarray, low: float, high: float) -> np.ndarray:

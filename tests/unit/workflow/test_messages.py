@@ -68,18 +68,19 @@ def test_jobs_that_ctrl_c_ends_have_not_failed(lines):
 
 
 @pytest.mark.parametrize(
-    ("content", "location", "dryrun"),
+    ("content", "location", "dryrun", "value"),
     [
-        (b"a: 1\n\tb: 2\n", "mine.yaml:2: ", True),
-        (None, "mine.yaml: ", False),
-        (b"a: 1\n", "WorkflowError", False),  # an error that is not of the config
+        (b"a: 1\n\tb: 2\n", "mine.yaml:2: ", True, "coatings=[]"),
+        (None, "mine.yaml: ", False, "coatings=[]"),
+        (b"a: 1\n", "WorkflowError", False, "coatings=[]"),  # an error that is not of the config
+        (b"a: 1\n", "--config figures.dpi=2: ", True, "figures.dpi=2"),
     ],
 )
 def test_what_is_no_config_is_named_where_snakemake_names_no_file(
-    lines, tmp_path, monkeypatch, content, location, dryrun
+    lines, tmp_path, monkeypatch, content, location, dryrun, value
 ):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("sys.argv", ["snakemake", "-j2", "--configfile", "mine.yaml", "-n"])
+    monkeypatch.setattr("sys.argv", ["snakemake", "--configfile", "mine.yaml", "-n", "--config", value])
     if content is not None:
         (tmp_path / "mine.yaml").write_bytes(content)
     refused = logging.ERROR, "WorkflowError:\nConfig file is not valid", {"event": LogEvent.ERROR}
