@@ -1,5 +1,6 @@
 """A blade: its reduced model, its mesh, and how well the one follows the other."""
 
+import math
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -119,15 +120,21 @@ class Blade(Shown):
         except ValueError as error:
             raise InputError("speed", speed, str(error)) from None
 
-    def check_speed(self, name: str, f_omega: float) -> None:
+    def check_speed(self, name: str, f_omega: float, f1_hz: float | None = None) -> None:
         """Check that the reduced model holds at the normalised speed `f_omega`, the argument `name`.
 
-        Raises `InputError`, which says up to which speed it does, if not.
+        `f1_hz` is the first frequency by which a speed with a unit was normalised, Hz. Raises `InputError`,
+        which says up to which speed the model holds, if not, or if the frequency is that of another blade.
         """
-        fastest = self.reduced.f_omega_max
-        if f_omega > fastest:
-            requirement = f"must be at most {fastest:g} (normalised), the highest speed of {self.path}"
-            raise InputError(name, f_omega, requirement)
+        if f1_hz and not math.isclose(f1_hz, self.f1_hz, rel_tol=1e-6):
+            rpm, blades = f"{60 * f_omega * f1_hz:.0f} rpm", f"f1 = {f1_hz:.6g} Hz, not {self.f1_hz:.6g} Hz"
+            raise InputError(
+                name, f_omega, f'is {rpm} of another blade ({blades}), must be blade.f_omega("{rpm}")'
+            )
+        if f_omega > self.reduced.f_omega_max:
+            fastest = speed_in_words(self.reduced.f_omega_max, self.f1_hz)
+            limit = f"must be at most reduction.f_omega_max of {self.path}, {fastest}"
+            raise InputError(name, f_omega, limit)
 
     def frequencies(self, f_omega: Quantity | Sequence[Quantity] = 0.0, n_modes: int = 3) -> np.ndarray:
         """Lowest eigenfrequencies (n_modes,) of the reduced model at a speed as of `Blade.f_omega`, Hz.

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field, replace
 
 from bladerub.api.arguments import InputError, over
-from bladerub.blade.cache import kept_frequency
+from bladerub.blade.cache import first_frequency, kept_frequency
 from bladerub.config import quantities
 from bladerub.config.checks import most_revolutions
 from bladerub.config.problems import check_quantity
@@ -32,6 +32,8 @@ class StudyRun:
         Casing, coating and law of friction, normalised.
     spec : RunSpec
         The same in SI units, with everything else that the run is.
+    f1_hz : float, optional
+        First frequency by which a speed with a unit was normalised, Hz.
 
     Examples
     --------
@@ -45,6 +47,7 @@ class StudyRun:
     config: Config = field(repr=False)
     case: CoatingCase
     spec: RunSpec = field(repr=False)
+    f1_hz: float | None = field(default=None, repr=False, compare=False)
 
     @property
     def f_omega(self) -> float:
@@ -56,7 +59,7 @@ class StudyRun:
         config = self.config.replaced("blade.length", length)
         spec = grid.run_spec(config, self.case, self.f_omega)
         start = self.spec.initial_displacement
-        return StudyRun(config, self.case, replace(spec, initial_displacement=start))
+        return replace(self, config=config, spec=replace(spec, initial_displacement=start))
 
     @property
     def name(self) -> str:
@@ -105,9 +108,10 @@ class StudyCoating:
         blade. A list of speeds, or of revolutions, gives a list of runs. Raises `InputError` if either is
         not possible.
         """
-        f_omega = checked_number(self.config, "f_omega", f_omega)
+        plain = checked_number(self.config, "f_omega", f_omega)
+        f1_hz = first_frequency(self.config) if isinstance(f_omega, str) else None
         config = self.config if revolutions is None else _of_revolutions(self.config, revolutions)
-        return StudyRun(config, self.case, grid.run_spec(config, self.case, f_omega))
+        return StudyRun(config, self.case, grid.run_spec(config, self.case, plain), f1_hz)
 
     def __repr__(self) -> str:
         return f"StudyCoating({self.case.name}{_moduli(self.config, self.case)})"
@@ -135,7 +139,7 @@ def _of_revolutions(config: Config, revolutions: int) -> Config:
     """Change a config to runs of so many revolutions: its analysis looks at no more."""
     limit = min(_MOST_REVOLUTIONS, most_revolutions(config))
     if not isinstance(revolutions, int) or not 2 <= revolutions <= limit:
-        raise InputError("revolutions", revolutions, f"must be from 2 to {limit}")
+        raise InputError("revolutions", revolutions, f"must be a whole number from 2 to {limit}")
     analysis = config.analysis
     return (
         config.replaced("solver.revolutions", revolutions)

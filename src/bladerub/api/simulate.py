@@ -60,7 +60,7 @@ def simulate(
     Raises
     ------
     InputError
-        If the speed is outside the range of the blade.
+        If the speed is outside the range of the blade, or was normalised for another one.
     ValueError
         If the time step of the study is too long for the scheme, or the row cannot be: its neighbours are
         too close, for instance, or its stress is asked for.
@@ -90,7 +90,7 @@ def simulate(
     >>> len(row.blades), int(row.blades.worn_volume.idxmax())
     (3, 2)
     """
-    blade.check_speed("f_omega", run.f_omega)
+    blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     run = run.of_length(blade.length)  # perhaps not the study's own blade
     row, solve, analysis = row or row_of(run.config), solver_of(run.config).simulate, run.config.analysis
     if stress and row:

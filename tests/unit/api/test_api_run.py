@@ -7,7 +7,7 @@ from bladerub.study.job import compute_missing
 from bladerub.study.plan import CoatingPlan, planned_run
 
 
-def test_progress_and_each_count_the_revolutions_and_a_speed_beyond_the_blade_is_named(study, blade, capsys):
+def test_progress_and_each_count_the_revolutions_and_a_speed_of_no_such_blade_is_named(study, blade, capsys):
     done = []
     asked = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=2)
     br.simulate(blade, asked, follow=False, progress=True, each=done.append)
@@ -15,9 +15,11 @@ def test_progress_and_each_count_the_revolutions_and_a_speed_beyond_the_blade_is
     said = capsys.readouterr().err
     assert said.lstrip("\r").startswith("compiling the time loop …")  # not a bar of one
     assert "rev" in said
-    with pytest.raises(br.InputError) as caught:
-        br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.45))
-    assert caught.value.name == "f_omega"
+    of_other_blade = study.replace("blade.length", 0.25).run("2nd", E=2, K=0.5, f_omega="2200 rpm")
+    for refused in (study.run("2nd", E=2, K=0.5, f_omega=0.45), of_other_blade):
+        with pytest.raises(br.InputError) as caught:
+            br.simulate(blade, refused)
+        assert caught.value.name == "f_omega"
 
 
 def test_growing_run_is_followed_further(study, blade):

@@ -164,7 +164,7 @@ def simulate_ensemble(
     """
     if members < 1:
         raise InputError("members", members, "must be at least 1")
-    blade.check_speed("f_omega", run.f_omega)
+    blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     if own is not None:
         _check(run, own, "own")
     start = np.append(0.0, starts(run.config.plugged("ensemble"), run.case, run.f_omega, members))
