@@ -18,6 +18,8 @@ from bladerub.settings import units
 from bladerub.settings.fields import OWN
 from bladerub.settings.study import whole
 
+NOT_KNOWN = "of this study, which is not known"
+"""Words of a problem that follows from another: a reference is unknown where its own keys are wrong."""
 _RELATIONS = {"at most": operator.le, "below": operator.lt, "at least": operator.ge, "above": operator.gt}
 
 
@@ -115,7 +117,7 @@ def _wrong(value: Any, key: Key) -> str:
             key.convert(quantity, lambda name: 1.0)
         except ValueError as error:
             return str(error)
-        return f"needs {key.unit.reference} of this study, which is not known; {key.right()}"
+        return f"needs {key.unit.reference} {NOT_KNOWN}; {key.right()}"
     return key.right()
 
 

@@ -19,7 +19,7 @@ _READS = {"f1": {"blade", "reduction"}, "modulus_unit": {"contact"}, "blade leng
 
 
 class Unknown(ValueError):
-    """The config does not say what a reference is, for a problem of its own."""
+    """The config does not say what a reference is, for problems of its own, which are perhaps named."""
 
 
 def references(config: Config | None, f1_hz: float | None = None) -> units.Reference:
@@ -81,7 +81,8 @@ def converted(config: Located, kind: Any = None, study: Config | None = None) ->
     def size(name: str) -> float | None:
         try:
             return references(study or _sound(config, _READS.get(name, {"contact"})))(name)
-        except Unknown:
+        except Unknown as error:
+            reasons.extend(error.args)
             return None
         except (ValueError, OSError) as error:
             reasons.append(f"blade: no first frequency, which speeds in rpm need: {error}")
@@ -119,8 +120,8 @@ def _sound(config: Located, parts: set[str]) -> Config:
     others = whole().model_fields.keys() - parts
     if parts - values.keys() or any(top_key(text) in parts for text in problems(values)):
         raise Unknown
-    if check(sound := typed(values, others), others):
-        raise Unknown
+    if disagreements := check(sound := typed(values, others), others):
+        raise Unknown(*disagreements)
     return sound
 
 

@@ -83,6 +83,7 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> "Confi
     # it takes half a second to import, `bladerub --help` and jobs on a cluster do without
     from bladerub.config import quantities
     from bladerub.config.checks import check
+    from bladerub.config.problems import NOT_KNOWN
     from bladerub.config.problems import problems as problems_of
     from bladerub.settings.study import required, typed
 
@@ -95,9 +96,10 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> "Confi
     problems += check(checked, broken)
     if problems:
         as_typed = quantities.as_typed(given, located)
+        causes = [text for text in problems if NOT_KNOWN not in text]
         raise ConfigError(
             Problem(location_of(text, locations), (f"{variation}: " if variation else "") + as_typed(text))
-            for text in dict.fromkeys(problems)
+            for text in dict.fromkeys(causes or problems)
         )
     return checked
 
