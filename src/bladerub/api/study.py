@@ -18,7 +18,7 @@ from bladerub.config.files import Located
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
 from bladerub.settings.coatings import History, HistoryOfDirectContact, HistoryWithFriction, OnCasing
 from bladerub.settings.study import Config, required, typed
-from bladerub.settings.units import pressure_in_words, speeds_in_words
+from bladerub.settings.units import moduli_in_words, pressure_in_words, speeds_in_words
 from bladerub.study import grid
 
 
@@ -222,14 +222,11 @@ class Study(Shown):
         return StudyCoating(self.config, case)
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
-        config, unit = self.config, grid.modulus_unit(self.config)
-        cases = [coating.case for coating in self.coatings]
-        moduli = [unit * case.E for case in cases if not case.is_rigid]
-        ends = f", E from {pressure_in_words(min(moduli))} to {pressure_in_words(max(moduli))}"
+        config = self.config
         return "Study", {
             "casings": ", ".join(config.casings),
-            "coatings": f"{len(cases)}{ends if moduli else ''}",
-            "E = 1, K = 1": pressure_in_words(unit),
+            "coatings": f"{len(self.coatings)}{moduli_in_words(grid.young_moduli(config))}",
+            "E = 1, K = 1": pressure_in_words(grid.modulus_unit(config)),
             "speeds": speeds_in_words(grid.speeds(config), kept_frequency(config)),
             "revolutions": f"{config.solver.revolutions}",
             "results": f"{self.results}",

@@ -8,14 +8,26 @@ orders have others (`bladerub.study.orders`).
 from collections.abc import Iterator
 
 from bladerub.settings.study import Config
+from bladerub.settings.units import pressure_in_words
 from bladerub.study.casings import nodal_diameters
-from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speed_name, speeds
+from bladerub.study.grid import (
+    SPEED_DECIMALS,
+    UNSCALED,
+    coating_cases,
+    listed_case,
+    speed_name,
+    speeds,
+    young_moduli,
+)
 from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
+
+_STIFF = 100e9  # Pa: a metal
 
 
 def notes(config: Config) -> list[str]:
     """List them, a line each."""
-    return [*_histories(config), *_orders(config), *_scaled_casings(config), *_idle_orders(config)]
+    of_casings = *_orders(config), *_scaled_casings(config), *_idle_orders(config)
+    return [*_histories(config), *of_casings, *_stiff_coatings(config)]
 
 
 def _histories(config: Config) -> Iterator[str]:
@@ -57,3 +69,10 @@ def _idle_orders(config: Config) -> Iterator[str]:
             why = f"nodal diameters {diameters} of casing {name} do not excite {idle}"
             proposal = f"{excited_orders(config, name)} as casings.{name}.peak_orders"
             yield f"analysis.peaks.orders = {orders}: {why}; try {proposal}"
+
+
+def _stiff_coatings(config: Config) -> Iterator[str]:
+    """Doubt an E that no coating has: in MPa, for instance, where it is in ``contact.modulus_unit``."""
+    if (stiffest := max(young_moduli(config), default=0.0)) > _STIFF:
+        remedy = 'a plain number is times contact.modulus_unit, "1200 MPa" is not'
+        yield f"coatings: E up to {pressure_in_words(stiffest)}, more than coatings have; {remedy}"

@@ -156,12 +156,17 @@ def pressure_in_words(pascal: float) -> str:
     return f"{pascal / 1e9:.4g} GPa" if pascal >= 1e9 else f"{pascal / 1e6:.4g} MPa"
 
 
+def moduli_in_words(pascal: Sequence[float]) -> str:
+    """Write the range of Young moduli, to stand behind something else; empty of none."""
+    return f", E from {pressure_in_words(min(pascal))} to {pressure_in_words(max(pascal))}" if pascal else ""
+
+
 def mistaken(unit: str, kind: str | None) -> str:
-    """Say what a quantity is by its unit, where one of another kind, or a known unit, was meant."""
+    """Say what a quantity is by its unit, where one of another kind, or a known unit of it, was meant."""
     actual, _ = size_of(unit)
     if actual:
         return f"is {article(actual)} {actual}"
-    lower = {known.lower(): known for known in reversed(UNITS.get(kind, _UNITS))}
+    lower = {known.lower(): known for known in reversed(UNITS.get(kind, {}))}
     close = get_close_matches(unit.lower(), lower, n=1)
     hint = f", did you mean {lower[close[0]]}?" if close else ""
     return f"has the unknown unit {format_value(unit)}{hint}"

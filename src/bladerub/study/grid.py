@@ -194,6 +194,11 @@ def modulus_unit(config: Config) -> float:
     return float(config.contact.modulus_unit * config.contact.plugged("scale", UNSCALED).modulus)
 
 
+def young_moduli(config: Config) -> list[float]:
+    """List the Young modulus of every abradable coating of the config, Pa."""
+    return [modulus_unit(config) * case.E for case in coating_cases(config) if not case.is_rigid]
+
+
 def element_law(config: Config) -> ElementLaw:
     """Describe the law of the elements that the config names, by default plasticity with linear hardening.
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from bladerub.config.read import read_with_notes
 from bladerub.io.folders import base_config
-from bladerub.settings.units import pressure_in_words, speeds_in_words
+from bladerub.settings.units import moduli_in_words, pressure_in_words, speeds_in_words
 
 
 def add_to(commands: Any) -> None:
@@ -35,7 +35,7 @@ def check(options: argparse.Namespace) -> None:
     config, notes = read_with_notes(base_config(), *options.files)
 
     from bladerub.blade.cache import kept_frequency
-    from bladerub.study.grid import coating_cases, modulus_unit, speeds
+    from bladerub.study.grid import coating_cases, modulus_unit, speeds, young_moduli
 
     for note in notes:
         print(f"bladerub config: {note}", file=sys.stderr)
@@ -45,7 +45,8 @@ def check(options: argparse.Namespace) -> None:
         f"in {config.results}"
     )
     print(f"speeds: {speeds_in_words(speeds(config), kept_frequency(config))}")
-    print(f"E = 1 and K = 1: {pressure_in_words(modulus_unit(config))}")
+    moduli = moduli_in_words(young_moduli(config))
+    print(f"E = 1 and K = 1: {pressure_in_words(modulus_unit(config))}{moduli}")
     law = config.contact.plugged("law")
     file = law and law.file
     print(f"executes {file}, the law of the coatings: read it as any program" if file else "executes no file")
