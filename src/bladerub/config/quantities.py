@@ -1,5 +1,7 @@
 """Quantities typed with a unit become the numbers that they stand for, wherever a config has a number."""
 
+import math
+import re
 from collections.abc import Callable
 from functools import cache
 from typing import Any
@@ -99,12 +101,21 @@ def converted(config: Located, kind: Any = None, study: Config | None = None) ->
 def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
     """Return what adds to the text of a problem the quantity that was typed, where `config` has a number."""
     before, after = typed.values(), config.values()
-    quantities = {path: text for path, text in before.items() if after.get(path) != text}
+    quantities = {path: text for path, text in before.items() if units.read(text) and after.get(path) != text}
 
     def add(problem: str) -> str:
         setting, colon, right = problem.partition(": ")
         path = setting.partition(" = ")[0]
-        return f"{setting} ({quantities[path]}){colon}{right}" if path in quantities else problem
+        if path not in quantities:
+            return problem
+        quantity = units.read(quantities[path])
+        size = float(quantity.number) / (after[path] or math.nan)
+
+        def in_unit(limit: re.Match[str]) -> str:
+            return f"{limit[0]} ({float(limit[1]) * size:,.6g} {quantity.unit})"
+
+        right = re.sub(rf" = ({units.NUMBER})", in_unit, right)
+        return f"{setting} ({quantities[path]}){colon}{right}"
 
     return add
 

@@ -137,9 +137,9 @@ def test_a_number_that_is_hardly_above_what_is_allowed_is_no_speed_in_rpm(study,
 
 @pytest.mark.parametrize(
     ("cause", "culprit"),
-    [("blade: {sections: []}", "blade.sections = []"), ("contact: {law: {name: plastik}}", "contact.law.name")],
+    [("blade: {sections: []}", "blade.sections"), ("contact: {law: {name: plastik}}", "contact.law.name")],
 )
 def test_a_reference_that_is_not_known_hides_no_cause(study, problems, cause, culprit):
     typed = "reduction: {f_omega_max: 80 Hz}\ncoatings: [{casing: 2nd, E: [1 GPa], K: [1], theta: [0]}]"
     (problem,) = problems(f"{typed}\n{cause}", by=study)
-    assert problem.text.startswith(culprit)
+    assert problem.text.startswith(f"{culprit} = ")
