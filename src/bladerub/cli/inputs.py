@@ -45,7 +45,9 @@ class Parser(argparse.ArgumentParser):
         options, unknown = self.parse_known_args(args, namespace)
         if unknown:
             self.prog += f" {options.name}"
-            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+            is_config = hasattr(options, "config") and unknown[0].endswith((".yaml", ".yml"))
+            hint = f"; a config is named with --config {unknown[0]}" if is_config else ""
+            self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
         return options
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
@@ -170,7 +172,11 @@ def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[s
     base = base_config()
     made_with = None if options.config else _made_with(base)
     if made_with is None:
-        return configuration.read_with_notes(base, *options.config)
+        config, notes = configuration.read_with_notes(base, *options.config)
+        if not options.config and (others := _other_results(config)):
+            line = f"with {base}, which has no results; another has, named with {others}"
+            print(f"bladerub {options.name}: {line}", file=sys.stderr)
+        return config, notes
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
     config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
@@ -194,6 +200,14 @@ def _made_with(base: Path) -> record.Record | None:
     """Read what was laid over the config in the file `base` for its results; None if nothing was."""
     results = configuration.load(base).get("results")
     return record.read(study_folder() / results) if isinstance(results, str) else None
+
+
+def _other_results(config: "Config") -> str:
+    """Write the options that name the configs of other results; empty where this config has results."""
+    if (study_folder() / config.results / "runs").exists():
+        return ""
+    files = (file for place in ("*", "*/*") for file in study_folder().glob(f"{place}/{record.FILE}"))
+    return " or ".join(str(made_with) for file in files if (made_with := record.read(file.parent)))
 
 
 def quantity(text: str) -> float | str:

@@ -15,6 +15,7 @@ from bladerub.cli import inputs
 from bladerub.cli.inputs import quantity, refused
 from bladerub.cli.run_option import RunOption
 from bladerub.io.errors import BadInput
+from bladerub.settings.units import speed_in_words
 
 if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.blade import Blade
@@ -95,6 +96,7 @@ def run(options: argparse.Namespace) -> None:
 
     from bladerub.api.simulate import simulate
     from bladerub.api.study import Study
+    from bladerub.blade.cache import kept_frequency
     from bladerub.study.solver import solver_of
 
     study, more = Study(config, inputs.study_folder()), {}
@@ -115,7 +117,7 @@ def run(options: argparse.Namespace) -> None:
     fastest = config.reduction.f_omega_max
     if not blade and planned.f_omega > fastest:  # of a blade that may not be built yet
         typed = f" ({speed})" if isinstance(speed, str) else ""
-        limit = f"reduction.f_omega_max = {fastest:g} (times the first frequency at rest)"
+        limit = f"reduction.f_omega_max = {speed_in_words(fastest, kept_frequency(config))}"
         raise BadInput(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
     _point_out(options, planned)
     solver_of(config).check()

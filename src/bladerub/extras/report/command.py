@@ -1,6 +1,7 @@
 """``bladerub report``: a finished study on one page, in rpm, mm and MPa."""
 
 import argparse
+from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -68,7 +69,8 @@ def _chosen(names: list[str], finished: "Results") -> list[str]:
     """Return the coatings of ``--coating``, each once."""
     for name in names:
         if name not in finished.cases:
-            raise BadInput(f"--coating {name}: is no coating of the study; bladerub status lists them")
+            nearest = ", ".join(get_close_matches(name, finished.cases, cutoff=0))
+            raise BadInput(f"--coating {name}: must be one that bladerub status lists, such as {nearest}")
     if len(names) > _MOST_COATINGS:
         raise BadInput(f"--coating: {len(names)} names; must be {_MOST_COATINGS} or fewer")
     return list(dict.fromkeys(names))
