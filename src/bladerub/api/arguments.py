@@ -29,6 +29,13 @@ class InputError(BadInput):
         super().__init__(f"{name} = {self.value}: {right}")
 
 
+def require(kind: type, **arguments: Any) -> None:
+    """Check that arguments are of a class of the interface; raise `InputError` for the first that is not."""
+    for name, value in arguments.items():
+        if not isinstance(value, kind):
+            raise InputError(name, value, f"must be a {kind.__name__}")
+
+
 def over(*names: str) -> Callable[[Function], Function]:
     """Let a function take lists (tuples, ranges, arrays) for the arguments `names`, and return a list then.
 

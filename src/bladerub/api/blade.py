@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub import plots
-from bladerub.api.arguments import InputError, over
+from bladerub.api.arguments import InputError, over, require
 from bladerub.api.display import Shown, step
 from bladerub.api.planned import Quantity
 from bladerub.api.study import Study
@@ -238,6 +238,7 @@ def build_blade(study: Study, progress: bool | None = None) -> Blade:
     >>> round(blade.length, 3)
     0.2
     """
+    require(Study, study=study)
     of_study = study.results / "blade" / "reduced_model.h5"
     path = of_study if is_built(study.config, of_study) else kept_at(study.config)
     if not is_built(study.config, path):

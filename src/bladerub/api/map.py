@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub import plots
-from bladerub.api.arguments import InputError, over
+from bladerub.api.arguments import InputError, over, require
 from bladerub.api.blade import Blade
 from bladerub.api.display import Shown, bar, step
 from bladerub.api.planned import Quantity, StudyCoating, StudyRun
@@ -232,9 +232,12 @@ def simulate_speeds(
     >>> sweep.status.tolist()
     ['completed', 'completed']
     """
+    require(Blade, blade=blade)
+    require(StudyCoating, coating=coating)
+    speeds = [speeds] if isinstance(speeds, float | int | str) else speeds
     runs = [coating.at(f_omega) for f_omega in sorted({blade.f_omega(speed) for speed in speeds})]
     if len(runs) < 2:
-        raise InputError("speeds", [run.f_omega for run in runs], "must be at least two")
+        raise InputError("speeds", [run.f_omega for run in runs], "must be a list of two or more")
     blade.check_speed("speeds", runs[-1].f_omega)
     results = solve_all(blade, runs, jobs, follow, progress)
     stored = [run.stored for run in results]
@@ -249,6 +252,8 @@ def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
 ) -> list[Run]:
     """Simulate `runs` of a coating, `jobs` at once, without histories; other arguments as of `simulate`."""
+    if jobs < 1:
+        raise InputError("jobs", jobs, "must be at least 1")
     with step("compiling the time loop", progress):
         compile_kernel(n_nodes=blade.reduced.n_interface, law=runs[0].spec.coating.element_law)
     runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade
