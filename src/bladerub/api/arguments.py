@@ -29,21 +29,20 @@ class InputError(BadInput):
         super().__init__(f"{name} = {self.value}: {right}")
 
 
-def require(kind: type, **arguments: Any) -> None:
-    """Check that arguments are of a class of the interface; raise `InputError` for the first that is not."""
-    for name, value in arguments.items():
-        if not isinstance(value, kind):
-            raise InputError(name, value, f"must be a {kind.__name__}")
-
-
 def over(*names: str) -> Callable[[Function], Function]:
     """Let a function take lists (tuples, ranges, arrays) for the arguments `names`, and return a list then.
 
     It is called for each value; of several lists for each combination, the last argument varying fastest.
+    `InputError` names an argument that is not of its class of the interface.
     """
 
     def decorate(function: Function) -> Function:
         signature = inspect.signature(function)
+        kinds = {
+            name: parameter.annotation
+            for name, parameter in signature.parameters.items()
+            if getattr(parameter.annotation, "__module__", "").startswith("bladerub.api.")
+        }
 
         @wraps(function)
         def called(*args: Any, **kwargs: Any) -> Any:
@@ -53,13 +52,14 @@ def over(*names: str) -> Callable[[Function], Function]:
                 for name, value in bound.arguments.items()
                 if name in names and isinstance(value, list | tuple | range | np.ndarray)
             }
-            if not lists:
-                return function(*args, **kwargs)
             results = []
             for values in product(*lists.values()):
                 bound.arguments.update(zip(lists, values, strict=True))
+                for name, kind in kinds.items():
+                    if not isinstance(bound.arguments[name], kind):
+                        raise InputError(name, bound.arguments[name], f"must be a {kind.__name__}")
                 results.append(function(*bound.args, **bound.kwargs))
-            return results
+            return results if lists else results[0]
 
         return called  # type: ignore[return-value]
 

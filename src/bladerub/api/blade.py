@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub import plots
-from bladerub.api.arguments import InputError, over, require
+from bladerub.api.arguments import InputError, over
 from bladerub.api.display import Shown, step
 from bladerub.api.planned import Quantity
 from bladerub.api.study import Study
@@ -127,14 +127,11 @@ class Blade(Shown):
         which says up to which speed the model holds, if not, or if the frequency is that of another blade.
         """
         if f1_hz and not math.isclose(f1_hz, self.f1_hz, rel_tol=1e-6):
-            rpm, blades = f"{60 * f_omega * f1_hz:.0f} rpm", f"f1 = {f1_hz:.6g} Hz, not {self.f1_hz:.6g} Hz"
-            raise InputError(
-                name, f_omega, f'is {rpm} of another blade ({blades}), must be blade.f_omega("{rpm}")'
-            )
+            rpm = f"{60 * f_omega * f1_hz:.0f} rpm"
+            raise InputError(name, f_omega, f'is {rpm} of another blade, must be blade.f_omega("{rpm}")')
         if f_omega > self.reduced.f_omega_max:
             fastest = speed_in_words(self.reduced.f_omega_max, self.f1_hz)
-            limit = f"must be at most reduction.f_omega_max of {self.path}, {fastest}"
-            raise InputError(name, f_omega, limit)
+            raise InputError(name, f_omega, f"must be at most reduction.f_omega_max of this blade, {fastest}")
 
     def frequencies(self, f_omega: Quantity | Sequence[Quantity] = 0.0, n_modes: int = 3) -> np.ndarray:
         """Lowest eigenfrequencies (n_modes,) of the reduced model at a speed as of `Blade.f_omega`, Hz.
@@ -238,7 +235,8 @@ def build_blade(study: Study, progress: bool | None = None) -> Blade:
     >>> round(blade.length, 3)
     0.2
     """
-    require(Study, study=study)
+    if not isinstance(study, Study):
+        raise InputError("study", study, "must be a Study, as of load_study")
     of_study = study.results / "blade" / "reduced_model.h5"
     path = of_study if is_built(study.config, of_study) else kept_at(study.config)
     if not is_built(study.config, path):

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub import plots
-from bladerub.api.arguments import InputError, over, require
+from bladerub.api.arguments import InputError, over
 from bladerub.api.blade import Blade
 from bladerub.api.display import Shown, bar, step
 from bladerub.api.planned import Quantity, StudyCoating, StudyRun
@@ -232,8 +232,6 @@ def simulate_speeds(
     >>> sweep.status.tolist()
     ['completed', 'completed']
     """
-    require(Blade, blade=blade)
-    require(StudyCoating, coating=coating)
     speeds = [speeds] if isinstance(speeds, float | int | str) else speeds
     runs = [coating.at(f_omega) for f_omega in sorted({blade.f_omega(speed) for speed in speeds})]
     if len(runs) < 2:

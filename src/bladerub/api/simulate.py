@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from bladerub.api.arguments import over, require
+from bladerub.api.arguments import over
 from bladerub.api.blade import Blade
 from bladerub.api.display import bar, step
 from bladerub.api.planned import StudyRun
@@ -90,8 +90,6 @@ def simulate(
     >>> len(row.blades), int(row.blades.worn_volume.idxmax())
     (3, 2)
     """
-    require(Blade, blade=blade)
-    require(StudyRun, run=run)
     blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     run = run.of_length(blade.length)  # perhaps not the study's own blade
     row, solve, analysis = row or row_of(run.config), solver_of(run.config).simulate, run.config.analysis

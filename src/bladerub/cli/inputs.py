@@ -45,8 +45,7 @@ class Parser(argparse.ArgumentParser):
         options, unknown = self.parse_known_args(args, namespace)
         if unknown:
             self.prog += f" {options.name}"
-            is_config = hasattr(options, "config") and unknown[0].endswith((".yaml", ".yml"))
-            hint = f"; a config is named with --config {unknown[0]}" if is_config else ""
+            hint = "; a config: --config FILE" if "config" in options and unknown[0].endswith(".yaml") else ""
             self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
         return options
 
@@ -174,8 +173,7 @@ def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[s
     if made_with is None:
         config, notes = configuration.read_with_notes(base, *options.config)
         if not options.config and (others := _other_results(config)):
-            line = f"with {base}, which has no results; another has, named with {others}"
-            print(f"bladerub {options.name}: {line}", file=sys.stderr)
+            print(f"bladerub {options.name}: with {base}, without results; others: {others}", file=sys.stderr)
         return config, notes
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]

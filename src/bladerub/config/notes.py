@@ -9,19 +9,10 @@ from collections.abc import Iterator
 
 from bladerub.settings.study import Config
 from bladerub.settings.units import pressure_in_words
+from bladerub.study import grid
 from bladerub.study.casings import nodal_diameters
-from bladerub.study.grid import (
-    SPEED_DECIMALS,
-    UNSCALED,
-    coating_cases,
-    listed_case,
-    speed_name,
-    speeds,
-    young_moduli,
-)
+from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speed_name, speeds
 from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
-
-_STIFF = 100e9  # Pa: a metal
 
 
 def notes(config: Config) -> list[str]:
@@ -73,6 +64,6 @@ def _idle_orders(config: Config) -> Iterator[str]:
 
 def _stiff_coatings(config: Config) -> Iterator[str]:
     """Doubt an E that no coating has: in MPa, for instance, where it is in ``contact.modulus_unit``."""
-    if (stiffest := max(young_moduli(config), default=0.0)) > _STIFF:
+    if (stiffest := max(grid.young_moduli(config), default=0.0)) > 100e9:  # as a metal
         remedy = 'a plain number is times contact.modulus_unit, "1200 MPa" is not'
         yield f"coatings: E up to {pressure_in_words(stiffest)}, more than coatings have; {remedy}"

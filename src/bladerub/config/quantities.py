@@ -1,6 +1,5 @@
 """Quantities typed with a unit become the numbers that they stand for, wherever a config has a number."""
 
-import math
 import re
 from collections.abc import Callable
 from functools import cache
@@ -109,12 +108,9 @@ def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
         if path not in quantities:
             return problem
         quantity = units.read(quantities[path])
-        size = float(quantity.number) / (after[path] or math.nan)
-
-        def in_unit(limit: re.Match[str]) -> str:
-            return f"{limit[0]} ({float(limit[1]) * size:,.6g} {quantity.unit})"
-
-        right = re.sub(rf" = ({units.NUMBER})", in_unit, right)
+        if limit := re.search(rf" = ({units.NUMBER})", right):  # in the unit of the plain number
+            typed_limit = float(limit[1]) / after[path] * float(quantity.number)
+            right = right.replace(limit[0], f"{limit[0]} ({typed_limit:,.6g} {quantity.unit})")
         return f"{setting} ({quantities[path]}){colon}{right}"
 
     return add

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.api.arguments import InputError, over, require
+from bladerub.api.arguments import InputError, over
 from bladerub.api.blade import Blade
 from bladerub.api.display import Shown
 from bladerub.api.map import solve_all
@@ -162,8 +162,6 @@ def simulate_ensemble(
     >>> ensemble.runs[1].attributes["run_key"] == ensemble.runs[0].attributes["run_key"]
     False
     """
-    require(Blade, blade=blade)
-    require(StudyRun, run=run)
     if members < 1:
         raise InputError("members", members, "must be at least 1")
     blade.check_speed("f_omega", run.f_omega, run.f1_hz)
