@@ -80,8 +80,8 @@ def test_a_study_and_a_blade_of_ones_own(clone: Workspace):
     run("docs/tutorials/own_study.md", clone)
     results = clone.folder / "results_my_study"
     coatings = {f"2nd_E{E}_K{K}_theta0" for E in ("1.1", "2") for K in ("0.5", "1")}
-    assert {path.stem for path in (results / "maps").glob("*.h5")} == coatings
-    assert [path.stem for path in (results / "figures" / "wear_map").glob("*.png")] == ["2nd_E2_K1_theta0"]
+    for made in (results / "maps").glob("*.h5"), (results / "figures" / "wear_map").glob("*.png"):
+        assert {path.stem for path in made} == coatings
     assert [Path(file).name for file in record.read(results).files] == ["quick.yaml", "my_study.yaml"]
 
     figures = clone.folder / "results_my_blade" / "figures"
