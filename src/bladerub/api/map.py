@@ -253,7 +253,7 @@ def solve_all(
     if jobs < 1:
         raise InputError("jobs", jobs, "must be at least 1")
     with step("compiling the time loop", progress):
-        compile_kernel(n_nodes=blade.reduced.n_interface, law=runs[0].spec.coating.element_law)
+        compile_kernel(runs[0].spec.turns, blade.reduced.n_interface, runs[0].spec.coating.element_law)
     runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade
     config, row = runs[0].config, row_of(runs[0].config)
     planned = [planned_run(config, run.spec, f"{n}.h5", False, row, follow) for n, run in enumerate(runs)]

@@ -97,7 +97,7 @@ def simulate(
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
     stressed = _stress_solver(blade, run) if stress else None
     with step("compiling the time loop", progress):
-        compile_kernel(n_nodes=blade.reduced.n_interface, law=run.spec.coating.element_law)
+        compile_kernel(run.spec.turns, blade.reduced.n_interface, run.spec.coating.element_law)
     with bar(run.spec.revolutions, "rev", progress) as line:
 
         def report(revolutions: int) -> None:

@@ -206,7 +206,7 @@ def _record(
         )
     before = 0 if all_revolutions else last - 1
     instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
-    compile_kernel(n_nodes=blade.n_interface, law=plan.spec.coating.element_law)
+    compile_kernel(plan.spec.turns, blade.n_interface, plan.spec.coating.element_law)
     with inputs.progress_bar(last, "rev") as bar:
         elements = (before * n_elements + instants).tolist()
         recording = record(

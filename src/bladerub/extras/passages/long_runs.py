@@ -76,7 +76,7 @@ def make(
     `report` is called with a line after each run.
     """
     # or the time of the first run would include the loading of the machine code
-    compile_kernel(n_nodes=blade.n_interface, law=element_law(config))
+    compile_kernel(bool(config.contact.tip_turns), blade.n_interface, element_law(config))
     case, revolutions = coating.case, config.long_runs.revolutions
     reasons = chosen(config, coating)
     results, seconds = [], np.full((len(reasons), revolutions), np.nan)

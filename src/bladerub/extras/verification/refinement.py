@@ -122,7 +122,7 @@ def with_finer_bars(blade: ReducedBlade, spec: RunSpec, times: int) -> RunSpec:
 def blade_with(config: Config, n: int) -> ReducedBlade:
     """Build the blade of `config` with `n` interface nodes, and compile the time loop for them."""
     varied = config.replaced("blade.mesh.chordwise", CHORDWISE).replaced("blade.mesh.thickness", 2)
-    compile_kernel(n_nodes=n, law=element_law(config))
+    compile_kernel(bool(config.contact.tip_turns), n, element_law(config))
     return build(varied.replaced("reduction.interface_nodes", n)).reduced
 
 

@@ -121,7 +121,7 @@ def verify_runs(
     blade: ReducedBlade, config: Config, runs: Sequence[StudyRun], jobs: int = 1
 ) -> Iterator[VerifiedRun]:
     """Verify `jobs` runs at once, and yield them in their order; raises as `verify_run`."""
-    compile_kernel(n_nodes=blade.n_interface, law=element_law(config))
+    compile_kernel(bool(config.contact.tip_turns), blade.n_interface, element_law(config))
     with threadpool_limits(1, "blas"), ThreadPoolExecutor(jobs) as pool:  # the loop holds no global lock
         yield from pool.map(partial(verify_run, blade, config), runs)
 
