@@ -25,7 +25,7 @@ from bladerub.study import run_set, store
 from bladerub.study.divergence import in_a_word
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import Verdict, judge
-from bladerub.study.manifest import listed_longer
+from bladerub.study.manifest import confirmation_path, lists_longer
 from bladerub.study.store import StoredRun
 from bladerub.study.summary import displacement_peak, summarise
 
@@ -273,7 +273,8 @@ def read_run(path: str | Path) -> Run:
     """Read one run of a study, such as ``results/runs/2nd_E2_K0.5_theta0/0.1900.h5``, or of `Run.write`.
 
     The longer run is read with it, where there is one. That of a run of a study is the one that the manifest
-    of the coating lists. A list of paths gives a list of runs.
+    of the coating lists or, before the job is done, one that begins as the run. A list of paths gives a list
+    of runs.
 
     Raises
     ------
@@ -288,9 +289,19 @@ def read_run(path: str | Path) -> Run:
     True
     """
     runs = run_set.read(path)
-    if _LONGER not in runs and (longer := listed_longer(path, runs[""].attributes["run_key"])):
-        runs[_LONGER] = store.read_run(longer)
+    if _LONGER not in runs and (longer := _longer_beside(path, runs[""])):
+        runs[_LONGER] = longer
     return run_of(runs)
+
+
+def _longer_beside(path: str | Path, run: StoredRun) -> StoredRun | None:
+    """Read the longer run that the manifest lists; before it lists the run, the one that begins as that."""
+    is_listed, longer = lists_longer(path, run.attributes["run_key"]), confirmation_path(path)
+    if is_listed or (is_listed is None and longer.exists()):
+        stored, peaks = store.read_run(longer), run.data["revolution_peak"]
+        if is_listed or np.array_equal(stored.data["revolution_peak"][: peaks.size], peaks):
+            return stored
+    return None
 
 
 def runs_of(run: Run, prefix: str = "") -> dict[str, StoredRun]:

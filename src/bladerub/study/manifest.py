@@ -82,19 +82,15 @@ def confirmation_path(run_path: str | Path) -> Path:
     return run_path.parent / CONFIRMATION / run_path.name
 
 
-def listed_longer(run_path: str | Path, run_key: str) -> Path | None:
-    """Return the longer run that the manifest beside the run at `run_path` lists; None if it lists none.
-
-    Where the run of this key is not listed, it is any that is there: the job is not done.
-    """
-    path, longer = Path(run_path), confirmation_path(run_path)
+def lists_longer(run_path: str | Path, run_key: str) -> bool | None:
+    """Return whether the manifest beside the run at `run_path` lists a longer one; None without this run."""
+    path = Path(run_path)
     try:
         rows = read_manifest(path.with_name("manifest.tsv"))
     except FileNotFoundError:
         rows = []
     matches = [row for row in rows if row.file == path.name and row.run_key == run_key]
-    has_longer = any(row.confirmation_key for row in matches) if matches else longer.exists()
-    return longer if has_longer else None
+    return any(row.confirmation_key for row in matches) if matches else None
 
 
 def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = ManifestRow) -> None:

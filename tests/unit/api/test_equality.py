@@ -48,10 +48,11 @@ def test_a_run_is_written_whole(study, run, followed, blade, tmp_path):
     assert followed != replace(followed, stress=None)
 
 
-def test_the_longer_run_of_a_study_is_the_one_that_its_manifest_lists(study, followed, tmp_path):
-    path, key, longer_key = tmp_path / "0.2000.h5", followed.attributes["run_key"], "of another blade"
+def test_the_longer_run_of_a_study_is_the_one_that_its_manifest_lists(study, run, followed, tmp_path):
+    path, key = tmp_path / "0.2000.h5", followed.attributes["run_key"]
+    run.write(confirmation_path(path), study.config)
     replace(followed, longer=None).write(path, study.config)
-    confirmation_path(path).parent.mkdir()
+    assert br.read_run(path).longer is None  # it does not begin as the run
     followed.longer.write(confirmation_path(path), study.config)
     assert br.read_run(path) == followed  # the job is not done, or this is no study
     listed = ManifestRow(path.name, 0.2, key, "completed", path.stat().st_size)
