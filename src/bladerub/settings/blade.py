@@ -1,8 +1,9 @@
 """The blade and its reduction."""
 
+import math
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from bladerub.settings.fields import BladeLengths, Degree, Metre, Number, Omitted, Pascal, Section, Unit
 
@@ -65,10 +66,15 @@ class Blade(Section):
     mesh: Mesh
 
 
+def _rounded_up(f_omega: float) -> float:
+    """Round a speed up to the six decimals that speeds of a study are rounded to."""
+    return math.ceil(round(f_omega * 1e6, 3)) / 1e6
+
+
 class Reduction(Section):
     """Craig-Bampton reduction with centrifugal stiffening, eqs. (2) to (6) of the paper."""
 
-    f_omega_max: Annotated[float, Unit("f1", decimals=6)] = Field(ge=0.01, le=2)
+    f_omega_max: Annotated[float, Unit("f1"), AfterValidator(_rounded_up)] = Field(ge=0.01, le=2)
     """Highest speed of the reduced model: upper end of the paper's range. K(f) is fitted at 0, half of it and
     it."""
     modes_per_speed: int = Field(ge=1, le=50)

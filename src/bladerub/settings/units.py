@@ -67,12 +67,11 @@ class Unit:
     """Unit of a plain number; one may also be typed with a unit of its own.
 
     `scaled` names the factor of ``contact.scale`` by which plain numbers are multiplied, and quantities with
-    a unit are not. A quantity is rounded up to so many `decimals`.
+    a unit are not.
     """
 
     name: str
     scaled: str | None = None
-    decimals: int | None = None
 
     @property
     def kind(self) -> str | None:
@@ -112,8 +111,7 @@ def convert(quantity: Quantity, unit: Unit, reference: Reference) -> float:
     """Return the value of a quantity, of the kind of `unit` or a share, in that unit.
 
     It is the number nearest to the exact one, as if that were typed; in units of a reference it has twelve
-    digits. ``decimals`` of the unit round it up, ``scaled`` undoes what multiplies it later. Raises as the
-    `reference`.
+    digits. ``scaled`` undoes what multiplies it later. Raises as the `reference`.
     """
     kind, size = size_of(quantity.unit)
     exact = quantity.number * size
@@ -122,10 +120,7 @@ def convert(quantity: Quantity, unit: Unit, reference: Reference) -> float:
     divisor = reference(unit.reference)
     if divisor == 1:  # as where no ``contact.scale`` is
         return float(exact)
-    value = float(f"{float(exact / Fraction(divisor)):.{_DIGITS}g}")
-    if unit.decimals is not None:
-        value = math.ceil(round(value * 10**unit.decimals, 3)) / 10**unit.decimals
-    return value
+    return float(f"{float(exact / Fraction(divisor)):.{_DIGITS}g}")
 
 
 @cache
