@@ -140,9 +140,9 @@ def _of_revolutions(config: Config, revolutions: int) -> Config:
     limit = min(_MOST_REVOLUTIONS, most_revolutions(config))
     if not isinstance(revolutions, int) or not 2 <= revolutions <= limit:
         raise InputError("revolutions", revolutions, f"must be a whole number from 2 to {limit}")
-    analysis = config.analysis
+    spectrum, growth = config.analysis.spectrum_revolutions, config.analysis.divergence.revolutions
     return (
         config.replaced("solver.revolutions", revolutions)
-        .replaced("analysis.spectrum_revolutions", min(analysis.spectrum_revolutions, revolutions))
-        .replaced("analysis.divergence.revolutions", min(analysis.divergence.revolutions, revolutions))
+        .replaced("analysis.spectrum_revolutions", min(spectrum, revolutions))
+        .replaced("analysis.divergence.revolutions", max(3, min(growth, revolutions)))  # or no valid config
     )
