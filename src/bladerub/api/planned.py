@@ -6,7 +6,7 @@ from bladerub.api.arguments import InputError, over
 from bladerub.blade.cache import first_frequency, kept_frequency
 from bladerub.config import quantities
 from bladerub.config.checks import most_revolutions
-from bladerub.config.problems import check_quantity
+from bladerub.config.problems import checked_quantity
 from bladerub.contact.spec import RunSpec
 from bladerub.settings.quantities import QUANTITIES
 from bladerub.settings.study import Config
@@ -121,10 +121,9 @@ def checked_number(config: Config, name: str, value: Quantity) -> float:
     """Return the argument `name` as a plain number within its bounds."""
     try:
         plain = quantities.number(name, value, quantities.references(config))
-        check_quantity(plain, QUANTITIES[name])
+        return checked_quantity(plain, QUANTITIES[name], hint=plain is value)
     except ValueError as error:
         raise InputError(name, value, str(error)) from None
-    return plain
 
 
 def _moduli(config: Config, case: CoatingCase) -> str:

@@ -42,12 +42,15 @@ def problems(values: Any, kind: Any = None) -> Iterator[str]:
         yield from _compared(valid, key, valid, ())
 
 
-def check_quantity(value: Any, kind: Any) -> None:
-    """Check one value by its type; raise a ValueError that says what would be right."""
+def checked_quantity(value: Any, kind: Any, hint: bool = True) -> float:
+    """Return one value of this type as a plain number.
+
+    Raises a ValueError that says what would be right, with a `hint` what may have been meant.
+    """
     try:
-        _adapter(kind).validate_python(value)
+        return _adapter(kind).validate_python(value, strict=True)
     except ValidationError:
-        raise ValueError(_wrong(value, _key(kind))) from None
+        raise ValueError(_wrong(value, _key(kind)) if hint else _key(kind).right()) from None
 
 
 def is_number(value: Any) -> bool:

@@ -107,6 +107,7 @@ def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
         path = setting.partition(" = ")[0]
         if path not in quantities:
             return problem
+        right = right.partition("; this is ")[0]  # a unit was typed, it needs no hint
         quantity = units.read(quantities[path])
         if limit := re.search(rf" = ({units.NUMBER})", right):  # in the unit of the plain number
             typed_limit = float(limit[1]) / after[path] * float(quantity.number)
