@@ -1,6 +1,7 @@
 # Stage 1: the blade, built once: finite elements, reduction, accuracy of the reduction.
 from pathlib import Path
 
+from bladerub.blade.files import is_built, missing_file, without_defaults
 from bladerub.blade.source import files, place
 from bladerub.io.errors import DamagedFile
 from bladerub.workflow.invocation import damage, loss, replaces
@@ -11,10 +12,10 @@ MESH = f"{RESULTS}/blade/mesh.h5"
 
 def of_another_config(model):
     """Say so of a blade that `bladerub run` has left here: Snakemake has no record of how it was made."""
-    from bladerub.blade.files import is_built
-
+    if lost := missing_file(Path(model)):
+        return f"{lost}: missing" if Path(model).exists() else None
     try:
-        is_current = not Path(model).exists() or is_built(STUDY, Path(model))
+        is_current = is_built(STUDY, Path(model))
     except DamagedFile as error:
         return str(error)
     return None if is_current else f"{model}: of another config"
@@ -40,7 +41,7 @@ rule blade:
         runtime=minutes(10),
     params:
         blade=config["blade"],
-        reduction=config["reduction"],
+        reduction=without_defaults(config["reduction"]),
     script:
         script_of("blade")
 

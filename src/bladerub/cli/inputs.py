@@ -239,11 +239,11 @@ def read_blade(options: argparse.Namespace, config: "Config") -> "tuple[Blade, C
     A damaged file is an `OSError` if the command can make it again, a `BadInput` if not.
     """
     from bladerub.api import blade as blades
-    from bladerub.blade.files import is_built, mesh_path
+    from bladerub.blade.files import is_built, missing_file
     from bladerub.workflow import invocation
 
     path = blade_path(options, config)
-    if not options.blade and not (path.exists() and mesh_path(path).exists()):
+    if not options.blade and missing_file(path):
         invocation.prepare(path.parents[1])
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
         blades.write_blade(config, path)

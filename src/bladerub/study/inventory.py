@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from bladerub.blade.files import is_built
+from bladerub.blade.files import is_built, missing_file
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.result import UNBALANCED
 from bladerub.io.errors import is_refused, message_for
@@ -43,8 +43,8 @@ def total(inventories: Iterable[Mapping[str, int]]) -> dict[str, int]:
 def current_blade(config: Config, model: Path) -> tuple[str | None, str | None]:
     """Return the digest of the reduced blade at `model`, or None and why there is none of this config."""
     try:
-        if not model.exists():
-            return None, f"there is no blade yet, so any run that is there counts as stale: {model}"
+        if lost := missing_file(model):
+            return None, f"any run that is there counts as stale without its blade: {lost} is missing"
         if not is_built(config, model):
             return None, f"the blade is of another config, so any run that is there counts as stale: {model}"
         read_reduced_blade(model)  # or it is no blade to compute with
