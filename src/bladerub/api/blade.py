@@ -22,11 +22,13 @@ from bladerub.blade.files import accuracy_path, is_built, mesh_path, paths
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
+from bladerub.config.problems import checked_quantity
 from bladerub.config.quantities import number, references
 from bladerub.io import tables
 from bladerub.io.equality import equal
 from bladerub.io.optional import package
 from bladerub.io.provenance import provenance
+from bladerub.settings.fields import Speed
 from bladerub.settings.study import Config
 from bladerub.settings.units import speed_in_words
 from bladerub.study.cache import blade_digest
@@ -116,7 +118,7 @@ class Blade(Shown):
         A list of speeds gives a list. Raises `InputError` if one is no speed.
         """
         try:
-            return float(number("f_omega", speed, references(None, self.f1_hz)))
+            return checked_quantity(number("f_omega", speed, references(None, self.f1_hz)), Speed)
         except ValueError as error:
             raise InputError("speed", speed, str(error)) from None
 
@@ -138,7 +140,7 @@ class Blade(Shown):
 
         At n speeds they are (n, n_modes). Raises ValueError if one is outside the range of the blade.
         """
-        if isinstance(f_omega, float | int | str):
+        if isinstance(f_omega, float | int | str | np.number):
             return reduced_frequencies(self.reduced, self.f_omega(f_omega), n_modes)
         speeds = [self.f_omega(speed) for speed in f_omega]
         return np.stack([reduced_frequencies(self.reduced, speed, n_modes) for speed in speeds])

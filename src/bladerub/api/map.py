@@ -187,7 +187,7 @@ def read_map(path: str | Path) -> Map:
     >>> br.read_map("2nd_E2_K0.5_theta0.h5").case.name
     '2nd_E2_K0.5_theta0'
     """
-    blade = Path(path).absolute().parents[1] / "blade" / "reduced_model.h5"
+    blade = Path(path).absolute().parent.parent / "blade" / "reduced_model.h5"
     f1_hz = None
     with suppress(OSError, KeyError):
         f1_hz = float(read_attributes(blade)["f1_hz"])

@@ -1,6 +1,7 @@
 """``bladerub new``: a study of one's own, in a folder."""
 
 import argparse
+import shlex
 import shutil
 from importlib.util import find_spec
 from pathlib import Path
@@ -39,4 +40,4 @@ def new(options: argparse.Namespace) -> None:
         shutil.copytree(_TEMPLATE, folder, dirs_exist_ok=True)
         (folder / ".gitignore").write_text("results/\n.snakemake/\n", encoding="utf-8")
     install = "" if find_spec("snakemake") else "pip install 'bladerub[study]' && "
-    print(f"{folder}: edit config/config.yaml, then: {install}cd {folder} && snakemake -j2")
+    print(f"{folder}: edit config/config.yaml, then: {install}cd {shlex.quote(str(folder))} && snakemake -j2")

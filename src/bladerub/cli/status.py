@@ -23,7 +23,7 @@ def add_to(commands: Any) -> None:
         help="count the runs of the study that are done, missing, stale, corrupt and unbounded",
         description="Compare the runs in the results folder with the plan, coating by coating. Nothing is "
         "computed. Stale runs are those of another blade, solver or setting; the next snakemake computes "
-        "them again, as it does missing and corrupt ones.",
+        "them again, as missing and corrupt ones, unless the archive has what it needs.",
     )
     parser.add_argument(
         "--thorough",

@@ -58,8 +58,9 @@ def _idle_orders(config: Config) -> Iterator[str]:
         idle = [order for order in orders if not excites(config.casings[name], order)]
         if idle:
             why = f"nodal diameters {diameters} of casing {name} do not excite {idle}"
-            proposal = f"{excited_orders(config, name)} as casings.{name}.peak_orders"
-            yield f"analysis.peaks.orders = {orders}: {why}; try {proposal}"
+            key = f"casings.{name}.peak_orders"
+            setting = key if config.casings[name].peak_orders else "analysis.peaks.orders"
+            yield f"{setting} = {orders}: {why}; try {excited_orders(config, name)} as {key}"
 
 
 def _stiff_coatings(config: Config) -> Iterator[str]:

@@ -146,7 +146,8 @@ def _values(entry: OnCasing) -> dict[str, Any]:
 
 
 def _case(casing: str, values: Mapping[str, float]) -> CoatingCase:
-    layer = {key: float(values[key]) for key in _LAYER if key in values}
+    # not -0.0, which has another name
+    layer = {key: float(values[key]) + 0.0 for key in _LAYER if key in values}
     make = CoatingCase.coulomb if "friction" in layer else CoatingCase
     case = (make if "E" in layer else CoatingCase.rigid)(casing, **layer)
     return case.with_own(**{key: values[key] for key in OWN if key in values})
