@@ -35,7 +35,7 @@ class TipProfile(Section):
         float,
         Unit("elements"),
         Limit("at most", "contact.elements", "the tip of a blade is narrow", divisor=8),
-    ] = Field(gt=0, le=20)
+    ] = Field(ge=0.5, le=20)
     """The whole width is about the thickness of the blade at its tip."""
     edge_drop: ScaledMetre = Field(ge=0, le=0.01)
     """How much lower the edge of the tip is than its middle; determines the width of the track."""
