@@ -1,7 +1,7 @@
 """What a run gives, in SI units."""
 
-import re
 from dataclasses import dataclass, field
+from typing import Annotated, get_type_hints
 
 import numpy as np
 
@@ -16,50 +16,25 @@ class Energy:
     The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential + work_couple``.
     Blade and casing:
     ``kinetic + elastic − initial + damping + stored + wear + sliding = work_shape + work_rotation``.
-
-    Attributes
-    ----------
-    initial : float
-        energy of the blade at the start
-    kinetic : float
-        kinetic energy of the blade at the end
-    elastic : float
-        elastic energy of the blade at the end
-    damping : float
-        energy dissipated by modal damping
-    work_radial : float
-        work done on the blade by the radial contact forces
-    work_tangential : float
-        work done on the blade by the tangential contact forces
-    work_couple : float
-        work done on the blade by the couples of the contact forces, where the tip turns
-    stored : float
-        elastic energy in the coating at the end
-    wear : float
-        energy dissipated by plastic shortening of the coating
-    work_shape : float
-        work of the rotation in moving the tip over the casing shape and onto new elements
-    work_rotation : float
-        work of the rotation against the tangential resistance of the coating
-    sliding : float
-        energy dissipated by the tangential resistance of the coating
-    exchanged : float
-        work exchanged in the contact, whatever its sign
     """
 
-    initial: float
-    kinetic: float
-    elastic: float
-    damping: float
-    work_radial: float
-    work_tangential: float
-    work_couple: float
-    stored: float
-    wear: float
-    work_shape: float
-    work_rotation: float
-    sliding: float
-    exchanged: float
+    initial: Annotated[float, "energy of the blade at the start"]
+    kinetic: Annotated[float, "kinetic energy of the blade at the end"]
+    elastic: Annotated[float, "elastic energy of the blade at the end"]
+    damping: Annotated[float, "energy dissipated by modal damping"]
+    work_radial: Annotated[float, "work done on the blade by the radial contact forces"]
+    work_tangential: Annotated[float, "work done on the blade by the tangential contact forces"]
+    work_couple: Annotated[
+        float, "work done on the blade by the couples of the contact forces, where the tip turns"
+    ]
+    stored: Annotated[float, "elastic energy in the coating at the end"]
+    wear: Annotated[float, "energy dissipated by plastic shortening of the coating"]
+    work_shape: Annotated[
+        float, "work of the rotation in moving the tip over the casing shape and onto new elements"
+    ]
+    work_rotation: Annotated[float, "work of the rotation against the tangential resistance of the coating"]
+    sliding: Annotated[float, "energy dissipated by the tangential resistance of the coating"]
+    exchanged: Annotated[float, "work exchanged in the contact, whatever its sign"]
 
     @property
     def residual(self) -> float:
@@ -71,8 +46,10 @@ class Energy:
         return abs(supplied - taken) / self.exchanged if self.exchanged else 0.0
 
 
-ENERGIES: dict[str, str] = dict(re.findall(r"(\w+) : float\n +(.+)", Energy.__doc__ or ""))
-"""What each entry of the ledger is, as its docstring says."""
+ENERGIES: dict[str, str] = {
+    name: kind.__metadata__[0] for name, kind in get_type_hints(Energy, include_extras=True).items()
+}
+"""What each entry of the ledger is."""
 
 
 @dataclass(frozen=True)
