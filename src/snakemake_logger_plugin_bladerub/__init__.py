@@ -119,8 +119,8 @@ def _refused_config() -> str:
     options, _ = parser.parse_known_args(sys.argv[1:])
     for entry in options.config:
         if not re.match(r"[a-zA-Z_][\w-]*\w=", entry):
-            right = "must be a key at the top and its value, as in --config 'figures={dpi: 100}'"
-            return f"--config {entry}: {right}"
+            requirement = "must be a key at the top and its value, as in --config 'figures={dpi: 100}'"
+            return f"--config {entry}: {requirement}"
     for path in options.configfile:
         try:
             files.read(path)

@@ -24,8 +24,8 @@ def plain(table: pd.DataFrame) -> pd.DataFrame:
 
 def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
     """Return the rows of one coating."""
-    named = filled(table)
-    matches = [named[name] == value for name, value in asdict(case).items()]
+    rows = filled(table)
+    matches = [rows[name] == value for name, value in asdict(case).items()]
     return table[np.logical_and.reduce(matches)]
 
 

@@ -34,8 +34,8 @@ def sweep_spec(config: Config, case: CoatingCase, direction: str, rate: float) -
     """
     settings, highest = config.sweeps, config.reduction.f_omega_max
     if settings.start >= highest:
-        right = f"must be below reduction.f_omega_max = {highest:g}"
-        raise BadInput(f"sweeps.start = {settings.start:g}: {right}")
+        requirement = f"must be below reduction.f_omega_max = {highest:g}"
+        raise BadInput(f"sweeps.start = {settings.start:g}: {requirement}")
     ends = settings.start, settings.stop or highest
     start, stop = ends if direction == "up" else ends[::-1]
     run = replace(run_spec(config, case, start), revolutions=0)

@@ -106,12 +106,12 @@ def read_plan(path: str | Path, config: Config) -> Plan:
     sections = {"groups": plan.groups, "sweeps": plan.sweeps or {}}
     sections["patterns.groups"] = plan.patterns.groups if plan.patterns else {}
     pairs: dict[str, list[tuple[Combination, int]]] = {}
-    named: dict[str, Combination] = {}
+    by_name: dict[str, Combination] = {}
     for section, groups in sections.items():
         pairs[section] = []
         for name, group in groups.items():
             members = list(_combinations_of(group))
-            if problem := _problem(group, config) or _same_name(members, named):
+            if problem := _problem(group, config) or _same_name(members, by_name):
                 key = f"{section}.{name}"
                 raise ConfigError.at(located.locations()[key], f"{key}.{problem}")
             pairs[section] += members
@@ -145,10 +145,10 @@ def _problem(group: Group, config: Config) -> str | None:
     return None
 
 
-def _same_name(members: list[tuple[Combination, int]], named: dict[str, Combination]) -> str | None:
-    """Enter the combinations of a group in `named`; say which would share the folder of another."""
+def _same_name(members: list[tuple[Combination, int]], by_name: dict[str, Combination]) -> str | None:
+    """Enter the combinations of a group in `by_name`; say which would share the folder of another."""
     for combination, _ in members:
-        first = named.setdefault(combination.name, combination)
+        first = by_name.setdefault(combination.name, combination)
         if first != combination:
             speeds = f"{first.f_omega:g} and {combination.f_omega:g}"
             return f"f_omega: {speeds} would both be {combination.name}; leave one out"

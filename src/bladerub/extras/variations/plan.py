@@ -119,8 +119,8 @@ class Plan:
             low, high = factor.range
             if not low <= own[factor.name] <= high:
                 key = f"factors.{factor.name}.sets.{next(iter(factor.ranges))} = {format_value([low, high])}"
-                right = f"must hold the study's own value, {own[factor.name]:g}"
-                raise ConfigError.at(factor.location, f"{key}: {right}")
+                requirement = f"must hold the study's own value, {own[factor.name]:g}"
+                raise ConfigError.at(factor.location, f"{key}: {requirement}")
         sets = [own, *(own | values for values in self.sets.values())]
         return np.array([[f.position(values[f.name]) for f in self.factors] for values in sets])
 
