@@ -11,12 +11,16 @@ from bladerub.study.grid import (
     speeds,
 )
 from bladerub.study.orders import peak_orders, peak_settings, used_casings
+from bladerub.study.paper import (
+    CRITICAL,
+    SOFT,
+    STRAIGHT,
+    STRAIGHT_SPEED,
+    TILTED,
+    TILTED_SPEED,
+    WORN,
+)
 
-LOBED = CoatingCase("2nd5nd", 11.0, 0.5, 0.0)
-SOFT = CoatingCase("2nd", 0.11, 0.5, 0.0)
-CRITICAL = CoatingCase("2nd", 1.1, 0.5, 0.0)
-STRAIGHT = CoatingCase("2nd", 2.0, 0.5, 0.0)
-INCLINED = CoatingCase("2nd", 2.0, 0.5, 0.15)
 MODULI = "casing == '2nd' and theta == 0 and law == 'theta'"  # the coatings of the histograms
 SPECTRA = {
     key: config["figures"][key] for key in ("dpi", "max_frequency", "amplitude_range")
@@ -33,10 +37,10 @@ SCALES = {
 BOTH = [
     f
     for f in speeds(STUDY)
-    if {STRAIGHT, INCLINED} <= set(coating_cases(STUDY))
-    and all(keeps_history(STUDY, case, f) for case in (STRAIGHT, INCLINED))
+    if {STRAIGHT, TILTED} <= set(coating_cases(STUDY))
+    and all(keeps_history(STUDY, case, f) for case in (STRAIGHT, TILTED))
 ]
-OWN = [f_omega for f_omega in BOTH if f_omega not in (0.190, 0.197)]
+OWN = [f_omega for f_omega in BOTH if f_omega not in (TILTED_SPEED, STRAIGHT_SPEED)]
 
 
 def map_of(case):
@@ -101,8 +105,8 @@ rule fig03_tip_profile:
         "drawing"
     params:
         dpi=DPI,
-        coating=part_of_run(INCLINED, "coating"),
-        tip=part_of_run(INCLINED, "tip"),
+        coating=part_of_run(TILTED, "coating"),
+        tip=part_of_run(TILTED, "tip"),
     script:
         "../scripts/fig03_tip_profile.py"
 
@@ -161,7 +165,7 @@ use rule casing as fig05_casing with:
     benchmark:
         f"{RESULTS}/benchmarks/fig05_casing.tsv"
     params:
-        casing=part_of_run(LOBED, "casing"),
+        casing=part_of_run(WORN, "casing"),
 
 
 # Of any coating, for the asking; of another blade or casing also part of `all`
@@ -188,7 +192,7 @@ rule wear_map:
 
 use rule wear_map as fig06_wear_map with:
     input:
-        map=map_of(LOBED),
+        map=map_of(WORN),
         blade=rules.blade.output.reduced_model,
         drawing=rules.wear_map.input.drawing,
     output:
@@ -222,11 +226,11 @@ rule spectrum:
 
 # The paper's spectra, each of one coating: drawn as that of any coating is
 OF_SPECTRA = {
-    "fig07_spectrum_2nd5nd": (LOBED, "Wear and spectra"),
+    "fig07_spectrum_2nd5nd": (WORN, "Wear and spectra"),
     "fig08_spectrum_soft": (SOFT, "Wear and spectra"),
     "fig09_spectrum_critical": (CRITICAL, "Wear and spectra"),
     "fig15_spectrum_theta0": (STRAIGHT, "Angle of the elements"),
-    "fig16_spectrum_theta015": (INCLINED, "Angle of the elements"),
+    "fig16_spectrum_theta015": (TILTED, "Angle of the elements"),
 }
 for figure, (case, category) in OF_SPECTRA.items():
 
@@ -306,11 +310,11 @@ rule histograms:
 
 # Runs of each, which are next to the manifests: Figs. 17 and 18, and the same at speeds of our own
 HISTORIES = {
-    {0.190: "fig17_history_0190", 0.197: "fig18_history_0197"}.get(
+    {TILTED_SPEED: "fig17_history_0190", STRAIGHT_SPEED: "fig18_history_0197"}.get(
         f_omega, f"history_{speed_name(f_omega)}"
     ): [
         f"{RESULTS}/runs/{case.name}/{speed_name(f_omega)}.h5"
-        for case in (STRAIGHT, INCLINED)
+        for case in (STRAIGHT, TILTED)
     ]
     for f_omega in BOTH
 }
@@ -319,7 +323,7 @@ HISTORIES = {
 rule histories:
     input:
         manifests=expand(
-            rules.coating.output.manifest, coating=[STRAIGHT.name, INCLINED.name]
+            rules.coating.output.manifest, coating=[STRAIGHT.name, TILTED.name]
         ),
         drawing=files_behind("plots.history"),
     output:
@@ -340,7 +344,7 @@ rule histories:
 
 rule fig19_wear_polar:
     input:
-        maps=[map_of(STRAIGHT), map_of(INCLINED)],
+        maps=[map_of(STRAIGHT), map_of(TILTED)],
         drawing=files_behind("plots.polar"),
     output:
         **drawn("fig19_wear_polar", "Angle of the elements", with_data=True),
@@ -352,7 +356,7 @@ rule fig19_wear_polar:
         "drawing"
     params:
         dpi=DPI,
-        speeds=[0.190, 0.197, *OWN],
+        speeds=[TILTED_SPEED, STRAIGHT_SPEED, *OWN],
     script:
         "../scripts/fig19_wear_polar.py"
 
@@ -370,7 +374,7 @@ WITH_MODULI = any(
 ) and {4, 6} <= set(peak_orders(STUDY, "2nd"))
 # Spectrum and wear map of each coating are drawn on casings that no figure of the paper shows, and in a small study of
 # others than the paper's
-OF_PAPER = [LOBED, SOFT, CRITICAL, STRAIGHT, INCLINED]
+OF_PAPER = [WORN, SOFT, CRITICAL, STRAIGHT, TILTED]
 SHOWN = {case.casing for case in OF_PAPER if in_study(case)}
 if len(COATINGS) <= 12 and not in_study(*OF_PAPER):
     SHOWN = set()
@@ -378,27 +382,27 @@ OTHER = [case.name for case in coating_cases(STUDY) if case.casing not in SHOWN]
 PLANNED = {
     "fig01_blade": True,
     "fig02_campbell": True,
-    "fig03_tip_profile": in_study(INCLINED),
+    "fig03_tip_profile": in_study(TILTED),
     "fig04_coating_cycle": in_study(STRAIGHT),
-    "fig05_casing": in_study(LOBED),
-    "fig06_wear_map": in_study(LOBED),
+    "fig05_casing": in_study(WORN),
+    "fig06_wear_map": in_study(WORN),
     **{figure: in_study(case) for figure, (case, _) in OF_SPECTRA.items()},
     "fig10_peaks": in_study(SOFT),
     "histograms": WITH_MODULI,
     "histories": bool(BOTH),
-    "fig19_wear_polar": in_study(STRAIGHT, INCLINED)
-    and {0.190, 0.197} <= set(speeds(STUDY)),
+    "fig19_wear_polar": in_study(STRAIGHT, TILTED)
+    and {TILTED_SPEED, STRAIGHT_SPEED} <= set(speeds(STUDY)),
 }
 # What `rule all` asks for
 FIGURES = [getattr(rules, name).output for name, needed in PLANNED.items() if needed]
 FIGURES += [expand(rules.spectrum.output, coating=OTHER)]
 # On a blade from another program, the wear map of every coating that can wear, and every casing
 ON_OTHER_BLADE = "source" in config["blade"]
-WORN = [
+WEARING = [
     case.name
     for case in coating_cases(STUDY)
     if not case.is_rigid and (ON_OTHER_BLADE or case.name in OTHER)
 ]
-FIGURES += [expand(rules.wear_map.output, coating=WORN)]
+FIGURES += [expand(rules.wear_map.output, coating=WEARING)]
 CASINGS = used_casings(STUDY) if ON_OTHER_BLADE else []
 FIGURES += [expand(rules.casing.output, casing=CASINGS)]
