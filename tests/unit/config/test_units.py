@@ -8,6 +8,7 @@ from bladerub.blade.files import made_from
 from bladerub.config.quantities import number, references
 from bladerub.config.read import read
 from bladerub.io.folders import ROOT
+from bladerub.settings.units import speeds_in_words
 from bladerub.study.grid import coating_cases, run_spec
 from bladerub.study.plan import coating_plan
 
@@ -86,23 +87,45 @@ def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
     assert number("E", "1.8 GPa", references(configs[0])) == 1.0
 
 
+def test_speeds_are_told_with_their_ends_in_rpm():
+    words = speeds_in_words([0.1, 0.2, 0.4], 200.0)
+    assert words == "3, from 0.1 to 0.4 of the first frequency at rest, 1,200 to 4,800 rpm"
+
+
 @pytest.mark.parametrize(
     ("setting", "words"),
     [
         ("speeds: {start: 2000 mm}", "is a length; must be a speed: rpm, Hz, rad/s"),
+        ("speeds: {step: 200 rpm/s}", "is a rate of speed; must be a speed: rpm"),
         ("reduction: {f_omega_max: 80 kHz}", 'unknown unit "kHz", did you mean Hz?; must be a speed'),
         ("contact: {modulus_unit: 600 N}", "is a force; must be a pressure: MPa, GPa"),
         ("contact: {elements: 2000 %}", "is a share; must be a whole number without a unit"),
+        ("casings: {2nd: {amplitude: 1 rad}}", "is an angle; must be a length: mm"),
+        ("coatings: [{casing: 2nd, E: [1], K: [3 J], theta: [0]}]", "is an energy; must be a pressure: MPa"),
         ("figures: {nominal_speed: 11400 mph}", 'unknown unit "mph"; must be a speed: rpm, Hz, rad/s'),
+        ("speeds: {start: 2000 rmp}", 'unknown unit "rmp", did you mean rpm?; must be a speed'),
+        ("blade: {length: 200 rpm}", "is a speed; must be a length: mm, µm, cm, m, in, ft, or a number in m"),
+        ("blade: {tip_cone: 12 mm}", "is a length; must be an angle: deg, rad, or a number in degrees"),
+        ("blade: {material: {density: 4430 kg}}", "is a mass; must be a density: kg/m3, g/cm3"),
         ("blade: {material: {young_modulus: 110}}", 'this is 110 Pa; write "110 MPa" or "110 GPa"'),
+        ("contact: {modulus_unit: 600 mPa}", 'unknown unit "mPa", did you mean MPa?; must be a pressure'),
         ("contact: {damping_ratio: 0.23 dB}", 'unknown unit "dB"; must be a number, or %'),
+        ("contact: {clearance: {leading_edge: 30 MPa}}", "or a number in blade lengths"),
+        ("contact: {layer_thickness: 6 MM}", 'unknown unit "MM", did you mean mm?'),
         ("contact: {law: {name: viscoplastic, viscosity: 1 mm}}", "must be a number in the unit"),
         ("coatings: [{casing: 2nd, E: [3.0e+8], K: [1], theta: [0]}]", 'write "300 MPa"'),
+        ("coatings: [{casing: 2nd, E: [1], K: [1], theta: [8 %]}]", "is a share; must be an angle: deg, rad"),
+        ("solver: {revolutions: 20 s}", "is a time; must be a whole number without a unit"),
     ],
 )
 def test_a_wrong_unit_is_named_with_the_right_ones(study, problems, setting, words):
     found = problems(setting, by=study)
     assert any(words in problem.text for problem in found), found
+
+
+def test_a_number_that_is_hardly_above_what_is_allowed_is_no_speed_in_rpm(study, problems):
+    (problem,) = problems("speeds: {start: 5}", by=study)
+    assert "write" not in problem.text
 
 
 @pytest.mark.parametrize(
