@@ -1,6 +1,7 @@
 # The figures of the paper by number, drawn from nothing but their inputs: a script for each kind of figure. A
 # figure is planned only if the study has its coatings.
 from dataclasses import asdict
+from typing import NamedTuple
 
 from bladerub.study.grid import (
     CoatingCase,
@@ -22,15 +23,17 @@ from bladerub.study.paper import (
 )
 
 MODULI = "casing == '2nd' and theta == 0 and law == 'theta'"  # the coatings of the histograms
-SPECTRA = {
-    key: config["figures"][key] for key in ("dpi", "max_frequency", "amplitude_range")
-}
+BLADE = {"blade": rules.blade.output.reduced_model}
 
 # What E = 1 is, a displacement that is large, and what is known of the rotor but the first frequency of its blade
 SCALES = {
     "modulus_unit": modulus_unit(STUDY),
     "length": config["blade"]["length"],
     "engine": {"nominal_speed": config["figures"].get("nominal_speed")},
+}
+SCALED = {"dpi": DPI, "scales": SCALES}
+SPECTRUM = SCALED | {
+    key: config["figures"][key] for key in ("max_frequency", "amplitude_range")
 }
 
 # Speeds at which the displacement of both is kept: the paper's two, and those where this blade has its peaks
@@ -43,6 +46,10 @@ BOTH = [
 OWN = [f_omega for f_omega in BOTH if f_omega not in (TILTED_SPEED, STRAIGHT_SPEED)]
 
 
+def in_study(*cases):
+    return {case.name for case in cases} <= set(COATINGS)
+
+
 def map_of(case):
     return f"{RESULTS}/maps/{case.name}.h5"
 
@@ -52,88 +59,10 @@ def part_of_run(case, part):
     return lambda wildcards: asdict(getattr(run_spec(STUDY, case, 0.0), part))
 
 
-rule fig01_blade:
-    input:
-        mesh=rules.blade.output.mesh,
-        drawing=files_behind("plots.blade_mesh"),
-    output:
-        **drawn("fig01_blade", "Model"),
-    log:
-        f"{RESULTS}/logs/fig01_blade.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig01_blade.tsv"
-    group:
-        "drawing"
-    params:
-        dpi=DPI,
-    script:
-        "../scripts/fig01_blade.py"
-
-
-rule fig02_campbell:
-    input:
-        blade=rules.blade.output.reduced_model,
-        campbell=rules.blade_tables.output.campbell,
-        drawing=files_behind("plots.campbell"),
-    output:
-        **drawn("fig02_campbell", "Model", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig02_campbell.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig02_campbell.tsv"
-    group:
-        "drawing"
-    params:
-        dpi=DPI,
-        scales=SCALES,
-    script:
-        "../scripts/fig02_campbell.py"
-
-
-rule fig03_tip_profile:
-    input:
-        blade=rules.blade.output.reduced_model,
-        model=files_behind("contact.illustration"),
-        drawing=files_behind("plots.tip_profile"),
-    output:
-        **drawn("fig03_tip_profile", "Model", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig03_tip_profile.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig03_tip_profile.tsv"
-    group:
-        "drawing"
-    params:
-        dpi=DPI,
-        coating=part_of_run(TILTED, "coating"),
-        tip=part_of_run(TILTED, "tip"),
-    script:
-        "../scripts/fig03_tip_profile.py"
-
-
-rule fig04_coating_cycle:
-    input:
-        model=files_behind("contact.illustration"),
-        drawing=files_behind("plots.coating_cycle"),
-    output:
-        **drawn("fig04_coating_cycle", "Model", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig04_coating_cycle.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig04_coating_cycle.tsv"
-    group:
-        "drawing"
-    params:
-        dpi=DPI,
-        coating=part_of_run(STRAIGHT, "coating"),
-    script:
-        "../scripts/fig04_coating_cycle.py"
-
-
-# Of any casing, for the asking; of another blade also part of `all`
+# Of any casing and coating, for the asking; on what the paper does not show also part of `all`
 rule casing:
     input:
-        blade=rules.blade.output.reduced_model,
+        **BLADE,
         model=files_behind("contact.casing"),
         drawing=files_behind("plots.polar"),
     output:
@@ -157,22 +86,10 @@ rule casing:
         "../scripts/casing.py"
 
 
-use rule casing as fig05_casing with:
-    output:
-        **drawn("fig05_casing", "Model", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig05_casing.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig05_casing.tsv"
-    params:
-        casing=part_of_run(WORN, "casing"),
-
-
-# Of any coating, for the asking; of another blade or casing also part of `all`
 rule wear_map:
     input:
+        **BLADE,
         map=rules.coating.output.map,
-        blade=rules.blade.output.reduced_model,
         drawing=files_behind("plots.wear_map"),
     output:
         png=f"{PLOTS}/wear_map/{{coating}}.png",
@@ -184,29 +101,15 @@ rule wear_map:
     group:
         "drawing"
     params:
-        dpi=DPI,
-        scales=SCALES,
+        **SCALED,
     script:
         "../scripts/wear_map.py"
 
 
-use rule wear_map as fig06_wear_map with:
-    input:
-        map=map_of(WORN),
-        blade=rules.blade.output.reduced_model,
-        drawing=rules.wear_map.input.drawing,
-    output:
-        **drawn("fig06_wear_map", "Wear and spectra"),
-    log:
-        f"{RESULTS}/logs/fig06_wear_map.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig06_wear_map.tsv"
-
-
 rule spectrum:
     input:
+        **BLADE,
         map=rules.coating.output.map,
-        blade=rules.blade.output.reduced_model,
         drawing=files_behind("plots.spectrum"),
     output:
         png=f"{PLOTS}/spectrum/{{coating}}.png",
@@ -218,64 +121,148 @@ rule spectrum:
     group:
         "drawing"
     params:
-        **SPECTRA,
-        scales=SCALES,
+        **SPECTRUM,
     script:
         "../scripts/spectrum.py"
 
 
-# The paper's spectra, each of one coating: drawn as that of any coating is
-OF_SPECTRA = {
-    "fig07_spectrum_2nd5nd": (WORN, "Wear and spectra"),
-    "fig08_spectrum_soft": (SOFT, "Wear and spectra"),
-    "fig09_spectrum_critical": (CRITICAL, "Wear and spectra"),
-    "fig15_spectrum_theta0": (STRAIGHT, "Angle of the elements"),
-    "fig16_spectrum_theta015": (TILTED, "Angle of the elements"),
+class Figure(NamedTuple):
+    """A figure of the paper: where the report shows it, and its job."""
+
+    category: str
+    script: str
+    input: dict
+    params: dict
+    is_planned: bool = True
+    with_data: bool = True
+
+
+def spectrum_of(case, category):
+    inputs = {**BLADE, "map": map_of(case), "drawing": rules.spectrum.input.drawing}
+    return Figure(
+        category, "spectrum", inputs, SPECTRUM, in_study(case), with_data=False
+    )
+
+
+SINGLE = {
+    "fig01_blade": Figure(
+        "Model",
+        "fig01_blade",
+        {
+            "mesh": rules.blade.output.mesh,
+            "drawing": files_behind("plots.blade_mesh"),
+        },
+        {"dpi": DPI},
+        with_data=False,
+    ),
+    "fig02_campbell": Figure(
+        "Model",
+        "fig02_campbell",
+        {
+            **BLADE,
+            "campbell": rules.blade_tables.output.campbell,
+            "drawing": files_behind("plots.campbell"),
+        },
+        SCALED,
+    ),
+    "fig03_tip_profile": Figure(
+        "Model",
+        "fig03_tip_profile",
+        {
+            **BLADE,
+            "model": files_behind("contact.illustration"),
+            "drawing": files_behind("plots.tip_profile"),
+        },
+        {
+            "dpi": DPI,
+            "coating": part_of_run(TILTED, "coating"),
+            "tip": part_of_run(TILTED, "tip"),
+        },
+        in_study(TILTED),
+    ),
+    "fig04_coating_cycle": Figure(
+        "Model",
+        "fig04_coating_cycle",
+        {
+            "model": files_behind("contact.illustration"),
+            "drawing": files_behind("plots.coating_cycle"),
+        },
+        {"dpi": DPI, "coating": part_of_run(STRAIGHT, "coating")},
+        in_study(STRAIGHT),
+    ),
+    "fig05_casing": Figure(
+        "Model",
+        "casing",
+        {
+            **BLADE,
+            "model": rules.casing.input.model,
+            "drawing": rules.casing.input.drawing,
+        },
+        {"dpi": DPI, "casing": part_of_run(WORN, "casing")},
+        in_study(WORN),
+    ),
+    "fig06_wear_map": Figure(
+        "Wear and spectra",
+        "wear_map",
+        {
+            **BLADE,
+            "map": map_of(WORN),
+            "drawing": rules.wear_map.input.drawing,
+        },
+        SCALED,
+        in_study(WORN),
+        with_data=False,
+    ),
+    "fig07_spectrum_2nd5nd": spectrum_of(WORN, "Wear and spectra"),
+    "fig08_spectrum_soft": spectrum_of(SOFT, "Wear and spectra"),
+    "fig09_spectrum_critical": spectrum_of(CRITICAL, "Wear and spectra"),
+    "fig10_peaks": Figure(
+        "Wear and spectra",
+        "fig10_peaks",
+        {
+            **BLADE,
+            "map": map_of(SOFT),
+            "analysing": files_behind("study.maps", "study.peaks"),
+            "drawing": rules.spectrum.input.drawing,
+        },
+        SPECTRUM
+        | {"peaks": lambda wildcards: peak_settings(STUDY, SOFT.casing).plain()},
+        in_study(SOFT),
+    ),
+    "fig15_spectrum_theta0": spectrum_of(STRAIGHT, "Angle of the elements"),
+    "fig16_spectrum_theta015": spectrum_of(TILTED, "Angle of the elements"),
+    "fig19_wear_polar": Figure(
+        "Angle of the elements",
+        "fig19_wear_polar",
+        {
+            "maps": [map_of(STRAIGHT), map_of(TILTED)],
+            "drawing": rules.casing.input.drawing,
+        },
+        {"dpi": DPI, "speeds": [TILTED_SPEED, STRAIGHT_SPEED, *OWN]},
+        in_study(STRAIGHT, TILTED)
+        and {TILTED_SPEED, STRAIGHT_SPEED} <= set(speeds(STUDY)),
+    ),
 }
-for figure, (case, category) in OF_SPECTRA.items():
+for name, figure in SINGLE.items():
 
     rule:
         name:
-            figure
+            name
         input:
-            map=map_of(case),
-            blade=rules.blade.output.reduced_model,
-            drawing=rules.spectrum.input.drawing,
+            **figure.input,
         output:
-            **drawn(figure, category),
+            **drawn(name, figure.category, figure.with_data),
         log:
-            f"{RESULTS}/logs/{figure}.log",
+            f"{RESULTS}/logs/{name}.log",
         benchmark:
-            f"{RESULTS}/benchmarks/{figure}.tsv"
+            f"{RESULTS}/benchmarks/{name}.tsv"
         group:
             "drawing"
         params:
-            **SPECTRA,
-            scales=SCALES,
+            **figure.params,
+            script=figure.script,
         script:
-            "../scripts/spectrum.py"
-
-
-rule fig10_peaks:
-    input:
-        map=map_of(SOFT),
-        blade=rules.blade.output.reduced_model,
-        analysing=files_behind("study.maps", "study.peaks"),
-        drawing=rules.spectrum.input.drawing,
-    output:
-        **drawn("fig10_peaks", "Wear and spectra", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig10_peaks.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig10_peaks.tsv"
-    group:
-        "drawing"
-    params:
-        **SPECTRA,
-        scales=SCALES,
-        peaks=lambda wildcards: peak_settings(STUDY, SOFT.casing).plain(),
-    script:
-        "../scripts/fig10_peaks.py"
+            "../scripts/{params.script}.py"
 
 
 # All from one table, so that one job draws them: quantity and engine order of each
@@ -342,29 +329,6 @@ rule histories:
         "../scripts/histories.py"
 
 
-rule fig19_wear_polar:
-    input:
-        maps=[map_of(STRAIGHT), map_of(TILTED)],
-        drawing=files_behind("plots.polar"),
-    output:
-        **drawn("fig19_wear_polar", "Angle of the elements", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig19_wear_polar.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig19_wear_polar.tsv"
-    group:
-        "drawing"
-    params:
-        dpi=DPI,
-        speeds=[TILTED_SPEED, STRAIGHT_SPEED, *OWN],
-    script:
-        "../scripts/fig19_wear_polar.py"
-
-
-def in_study(*cases):
-    return {case.name for case in cases} <= set(COATINGS)
-
-
 WITH_MODULI = any(
     case.casing == "2nd"
     and case.theta == 0
@@ -380,18 +344,9 @@ if len(COATINGS) <= 12 and not in_study(*OF_PAPER):
     SHOWN = set()
 OTHER = [case.name for case in coating_cases(STUDY) if case.casing not in SHOWN]
 PLANNED = {
-    "fig01_blade": True,
-    "fig02_campbell": True,
-    "fig03_tip_profile": in_study(TILTED),
-    "fig04_coating_cycle": in_study(STRAIGHT),
-    "fig05_casing": in_study(WORN),
-    "fig06_wear_map": in_study(WORN),
-    **{figure: in_study(case) for figure, (case, _) in OF_SPECTRA.items()},
-    "fig10_peaks": in_study(SOFT),
+    **{name: figure.is_planned for name, figure in SINGLE.items()},
     "histograms": WITH_MODULI,
     "histories": bool(BOTH),
-    "fig19_wear_polar": in_study(STRAIGHT, TILTED)
-    and {TILTED_SPEED, STRAIGHT_SPEED} <= set(speeds(STUDY)),
 }
 # What `rule all` asks for
 FIGURES = [getattr(rules, name).output for name, needed in PLANNED.items() if needed]

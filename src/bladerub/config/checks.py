@@ -166,7 +166,7 @@ def casing_problems(config: Config, name: str) -> Iterator[str]:
     if entry.plugged("table"):
         if entry.interference is None:
             key = f"casings.{name}.table: interference"
-        if bound and depth <= _smallest_clearance(config):
+        if bound and depth <= smallest_clearance(config):
             bound += "; give an interference here or in the entry of coatings, or lower the table"
         if depth >= thickness:
             bound = bound or f"below contact.layer_thickness, {thickness:g} m"
@@ -176,7 +176,7 @@ def casing_problems(config: Config, name: str) -> Iterator[str]:
 
 def _depth_bound(config: Config, entry: AnyCasing, depth: float) -> str | None:
     """Say what the depth of a casing must be, where the blade would touch all around, or never."""
-    casing, smallest = casing_spec("", entry), _smallest_clearance(config)
+    casing, smallest = casing_spec("", entry), smallest_clearance(config)
     lowest = float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
     deepest = casing.amplitude * (1 - lowest) + smallest
     if depth > deepest:
@@ -186,7 +186,7 @@ def _depth_bound(config: Config, entry: AnyCasing, depth: float) -> str | None:
     return None
 
 
-def _smallest_clearance(config: Config) -> float:
+def smallest_clearance(config: Config) -> float:
     """Smaller clearance at an edge of the tip, in m before ``contact.scale``, as those of the casings."""
     clearance = config.contact.clearance
     smallest = min(clearance.leading_edge, clearance.trailing_edge) * config.blade.length

@@ -7,17 +7,21 @@ orders have others (`bladerub.study.orders`).
 
 from collections.abc import Iterator
 
+import numpy as np
+
+from bladerub.config.checks import smallest_clearance
+from bladerub.contact.casing import gap
 from bladerub.settings.study import Config
 from bladerub.settings.units import pressure_in_words
 from bladerub.study import grid
-from bladerub.study.casings import nodal_diameters
+from bladerub.study.casings import casing_spec, nodal_diameters
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speed_name, speeds
 from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
 
 
 def notes(config: Config) -> list[str]:
     """List them, a line each."""
-    of_casings = *_orders(config), *_scaled_casings(config), *_idle_orders(config)
+    of_casings = *_orders(config), *_scaled_casings(config), *_idle_orders(config), *_overlaps(config)
     return [*_histories(config), *of_casings, *_stiff_coatings(config)]
 
 
@@ -61,6 +65,19 @@ def _idle_orders(config: Config) -> Iterator[str]:
             key = f"casings.{name}.peak_orders"
             setting = key if config.casings[name].peak_orders else "analysis.peaks.orders"
             yield f"{setting} = {orders}: {why}; try {excited_orders(config, name)} as {key}"
+
+
+def _overlaps(config: Config) -> Iterator[str]:
+    """Name the casings that the tip starts in: no work of the blade deforms their coating there."""
+    clearance, angles = smallest_clearance(config), np.arange(360.0)
+    for name in used_casings(config):
+        casing = casing_spec(name, config.casings[name])
+        if (overlap := -float(gap(casing, clearance, casing.start_angle))) > 0:
+            millimetres = 1e3 * config.contact.plugged("scale", UNSCALED).length * overlap
+            widest = angles[gap(casing, clearance, np.radians(angles)).argmax()]
+            why = f"the blade starts {millimetres:.2g} mm inside the coating, so its energy does not balance"
+            setting = f"casings.{name}.start_angle = {config.casings[name].start_angle:g}"
+            yield f"{setting}: {why}; the gap is widest at {widest:g} degrees"
 
 
 def _stiff_coatings(config: Config) -> Iterator[str]:

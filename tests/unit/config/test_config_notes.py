@@ -11,7 +11,7 @@ from bladerub.study.paper import HISTORIES, ORDERS
 
 STUDY = ROOT / "config" / "config.yaml"
 OTHER_COATING = {"coatings": [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.0]}]}
-ROUND = {"weights": [1.0], "amplitude": 1e-3, "interference": 5e-4, "start_angle": 0.0}
+ROUND = {"weights": [1.0], "amplitude": 1e-3, "interference": 5e-4, "start_angle": 100.0}
 
 
 def on_casing(**casing):
@@ -114,3 +114,11 @@ def test_orders_that_a_file_gives_are_kept_and_doubted(laid_over):
     config, notes = laid_over(content)
     assert peak_orders(config, "own") == [3, 6, 12]
     assert len(notes) == 1
+
+
+@pytest.mark.parametrize(("diameters", "widest"), [([2], 90), ([3], 60)])
+def test_a_blade_that_starts_inside_the_coating_is_doubted(laid_over, diameters, widest):
+    _, notes = laid_over(on_casing(nodal_diameters=diameters, start_angle=0.0))
+    (note,) = [note for note in notes if "start_angle" in note]
+    assert note.startswith("casings.own.start_angle = 0: the blade starts 0.47 mm")  # 0.5 less the clearance
+    assert note.endswith(f"at {widest} degrees")
