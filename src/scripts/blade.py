@@ -5,6 +5,7 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 import logging
+from pathlib import Path
 
 from bladerub.blade.accuracy import doubts
 from bladerub.blade.build import build
@@ -18,8 +19,8 @@ logging.getLogger("bladerub").setLevel(logging.INFO)
 # of the study, or of a sample of the robustness
 plain = {**snakemake.config, "blade": snakemake.params.blade, "reduction": snakemake.params.reduction}
 config = typed(plain)
-files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "rom_accuracy")}
+reduced_model = Path(snakemake.output.reduced_model)
 built = build(config)
-write(built, provenance(plain), **files)
+write(built, provenance(plain), reduced_model)
 for doubt in doubts(built.accuracy, config.figures.nominal_speed):
-    job.print_doubt(f"{files['reduced_model']}: {doubt}")
+    job.print_doubt(f"{reduced_model}: {doubt}")

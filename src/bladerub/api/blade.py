@@ -18,7 +18,7 @@ from bladerub.api.planned import Quantity
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.blade.cache import kept_at
-from bladerub.blade.files import accuracy_path, is_built, mesh_path, paths
+from bladerub.blade.files import accuracy_path, is_built, mesh_path
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
@@ -256,4 +256,4 @@ def write_blade(config: Config, path: Path) -> None:
     from bladerub.blade.build import build
     from bladerub.blade.built import write
 
-    write(build(config), provenance(config.plain()), *paths(path))
+    write(build(config), provenance(config.plain()), path)

@@ -43,10 +43,15 @@ def frequency_of_mesh(blade: MeshedBlade, config: BladeSpec) -> float:
 
 def reduce_meshed(blade: MeshedBlade, config: BladeSpec) -> BuiltBlade:
     """Reduce a meshed blade with as many speeds and modes as its tolerance asks for; see `build`."""
+    reduction = config.reduction
+    table_speeds = np.linspace(0, reduction.f_omega_max, reduction.accuracy_speeds).tolist()
 
     @lru_cache(maxsize=1)  # more modes at each speed need no new equilibria
     def discrete(n_speeds: int) -> DiscreteBlade:
-        return discretise(blade, config.replaced("reduction.fit_speeds", n_speeds))
+        speeds = fit_speeds(reduction.f_omega_max, n_speeds)
+        return by_finite_elements(
+            blade, config.blade.material, speeds, table_speeds, reduction.accuracy_modes
+        )
 
     return _reduce(discrete, config)
 
@@ -75,16 +80,3 @@ def meshed_blade(blade: Blade, n_nodes: int = N_INTERFACE) -> MeshedBlade:
     geometry.check(blade, n_nodes)
     shape = geometry.BladeShape.from_config(blade)
     return MeshedBlade(BladeMesh.from_shape(shape, blade.mesh, n_nodes), shape.tip_cone, blade.length)
-
-
-def discretise(blade: MeshedBlade, config: BladeSpec) -> DiscreteBlade:
-    """Discretise `blade` by finite elements of the material and at the speeds that `config` asks for."""
-    reduction = config.reduction
-    f_max = reduction.f_omega_max
-    return by_finite_elements(
-        blade,
-        config.blade.material,
-        fit_speeds(f_max, reduction.fit_speeds or 3),
-        np.linspace(0, f_max, reduction.accuracy_speeds).tolist(),
-        reduction.accuracy_modes,
-    )

@@ -32,24 +32,18 @@ class BuiltBlade:
     made_from: str  # from `bladerub.blade.files.made_from`
 
 
-def write(
-    built: BuiltBlade,
-    origin: Mapping[str, str],
-    reduced_model: str | Path,
-    mesh: str | Path,
-    rom_accuracy: str | Path,
-) -> None:
-    """Write the two HDF5 files of a blade and the table of its accuracy; `origin` is their provenance.
+def write(built: BuiltBlade, origin: Mapping[str, str], reduced_model: Path) -> None:
+    """Write a blade to `bladerub.blade.files.paths` of its reduced model; `origin` is their provenance.
 
     The reduced model is written last: if it exists, the other files do too.
     """
-    _write_mesh(mesh, built, origin)
-    tables.write(rom_accuracy, built.accuracy, origin, float_format="%.10g")
+    _write_mesh(mesh_path(reduced_model), built, origin)
+    tables.write(accuracy_path(reduced_model), built.accuracy, origin, float_format="%.10g")
     write_reduced_blade(reduced_model, built.reduced, origin)
 
 
 def read(reduced_model: Path) -> BuiltBlade:
-    """Read the blade that `write` wrote to `paths`: written again, it gives the same bytes.
+    """Read the blade that `write` wrote: written again, it gives the same bytes.
 
     Raises an OSError that names the file if one is missing or damaged.
     """
@@ -61,10 +55,7 @@ def read(reduced_model: Path) -> BuiltBlade:
         return BuiltBlade(
             read_reduced_blade(reduced_model),
             BladeMesh(mesh, *(data[f"{name}_nodes"] for name in ("root", "tip", "interface"))),
-            *(
-                data[name]
-                for name in ("frequency", "mode_shape", "recovery", "static_displacement", "f_omega")
-            ),
+            *map(data.__getitem__, ("frequency", "mode_shape", "recovery", "static_displacement", "f_omega")),
             tables.read(accuracy_path(reduced_model), ACCURACY_COLUMNS),
             attributes["made_from"],
         )

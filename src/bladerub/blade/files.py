@@ -22,7 +22,7 @@ def accuracy_path(reduced_model: Path) -> Path:
 
 
 def paths(reduced_model: Path) -> tuple[Path, Path, Path]:
-    """Return the files of a blade whose reduced model is the file `reduced_model`, as `write` takes them."""
+    """Return the files of a blade whose reduced model is the file `reduced_model`."""
     return reduced_model, mesh_path(reduced_model), accuracy_path(reduced_model)
 
 

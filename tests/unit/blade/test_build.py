@@ -6,6 +6,7 @@ from blade_parts import REDUCTION
 
 from bladerub.blade.build import build
 from bladerub.blade.built import write
+from bladerub.blade.files import accuracy_path, mesh_path
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.reduction import directions
 from bladerub.blade.validation import read_reduced_blade
@@ -33,12 +34,12 @@ def test_radial_direction_is_the_normal_of_a_conical_flow_path(twisted_config):
 
 
 def test_files_hold_what_was_built(built, tmp_path):
-    paths = [tmp_path / "new" / name for name in ("reduced_model", "mesh", "rom_accuracy")]
-    write(built, {"provenance_software": "bladerub"}, *paths)
-    blade = read_reduced_blade(paths[0])
+    reduced_model = tmp_path / "new" / "reduced_model.h5"
+    write(built, {"provenance_software": "bladerub"}, reduced_model)
+    blade = read_reduced_blade(reduced_model)
     np.testing.assert_array_equal(blade.stiffness_1, built.reduced.stiffness_1)
     assert blade.f1_hz == built.frequency[0]
-    data, _ = hdf5.read(paths[1])
+    data, _ = hdf5.read(mesh_path(reduced_model))
     n_nodes = len(data["points"])
     assert data["cells"].shape == (7 * 1 * 3, 20)
     np.testing.assert_array_equal(data["points"][data["interface_nodes"]], blade.node_position)
@@ -47,7 +48,7 @@ def test_files_hold_what_was_built(built, tmp_path):
     assert data["static_displacement"].shape == (3, n_nodes, 3)
     assert not data["mode_shape"][:, data["root_nodes"]].any()
     np.testing.assert_allclose(np.abs(data["mode_shape"]).max(axis=(1, 2)), 1.0)
-    accuracy = pd.read_csv(paths[2])
+    accuracy = pd.read_csv(accuracy_path(reduced_model))
     assert len(accuracy) == 3 * 4
     assert accuracy.f_fe[0] == pytest.approx(blade.f1_hz, rel=1e-9)
 

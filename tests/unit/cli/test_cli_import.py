@@ -9,7 +9,6 @@ import pytest
 import yaml
 
 from bladerub.blade import build, built, cache
-from bladerub.blade.files import paths
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
@@ -142,7 +141,7 @@ def test_the_study_takes_the_blade_that_was_imported(look, folder, tmp_path, mon
     monkeypatch.setattr(build, "meshed_blade", lambda *_: pytest.fail("built again"))
     for blade, into in zip((built_now, build.build(config)), folders, strict=True):
         into.mkdir()
-        built.write(blade, provenance(values), *paths(into / "reduced_model.h5"))
+        built.write(blade, provenance(values), into / "reduced_model.h5")
     files = sorted(path.name for path in folders[0].iterdir())
     assert len(files) == 4
     assert all((folders[0] / name).read_bytes() == (folders[1] / name).read_bytes() for name in files)

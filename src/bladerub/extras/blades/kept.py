@@ -5,7 +5,7 @@ from contextlib import suppress
 from bladerub.blade import built
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.cache import kept_at
-from bladerub.blade.files import is_built, paths
+from bladerub.blade.files import is_built
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 
@@ -15,7 +15,7 @@ def keep(blade: BuiltBlade, config: Config) -> None:
     with suppress(OSError):
         path = kept_at(config)
         if not is_built(config, path):
-            built.write(blade, provenance(config.plain()), *paths(path))
+            built.write(blade, provenance(config.plain()), path)
 
 
 def kept(config: Config) -> BuiltBlade | None:

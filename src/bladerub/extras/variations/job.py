@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 from bladerub.blade.build import build
 from bladerub.blade.built import write
 from bladerub.blade.cache import kept_at
-from bladerub.blade.files import accuracy_path, paths
+from bladerub.blade.files import accuracy_path
 from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
 from bladerub.config.files import Located
@@ -173,7 +173,7 @@ def blade_of(config: Config, blades: str | Path, report: Callable[[object], None
     model = folder / "reduced_model.h5"
     with lock.held(folder / ".lock", lambda: report(f"another job builds the blade in {folder}")):
         if not model.exists():
-            write(build(config), provenance(config.plain()), *paths(model))
+            write(build(config), provenance(config.plain()), model)
     return model
 
 
