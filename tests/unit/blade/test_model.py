@@ -9,8 +9,7 @@ from bladerub.blade.accuracy import accuracy_table, doubts
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.mesh import BladeMesh, NodeCloud
 from bladerub.blade.model import write_reduced_blade
-from bladerub.blade.reduction import directions
-from bladerub.blade.tip_slope import tip_slope
+from bladerub.blade.reduction import directions, tip_slope
 from bladerub.blade.validation import read_reduced_blade, read_valid_blade
 from bladerub.io.errors import DamagedFile
 
