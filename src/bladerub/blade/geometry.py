@@ -124,8 +124,6 @@ def check(blade: Blade, n_interface: int = N_INTERFACE) -> None:
     to 1, an element would be turned inside out, or the tip has too few nodes for the interface.
     """
     spans = [section.span for section in blade.sections]
-    if len(spans) < 2:
-        raise ValueError(f"blade.sections: {len(spans)} section(s); give at least two, at span 0 and 1")
     for index, end in ((0, 0.0), (len(spans) - 1, 1.0)):
         if spans[index] != end:
             raise ValueError(
