@@ -15,12 +15,12 @@ import pandas as pd
 from bladerub.io.tables import read as read_table
 from bladerub.settings.study import Config
 from bladerub.study import divergence, peaks
-from bladerub.study.findings import limits, moduli, reduction, tangential, wear_and_spectra
+from bladerub.study.findings import moduli, tangential, wear_and_spectra
 from bladerub.study.findings.claim import Claim, Finding, NotMeasurable, in_order
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.maps import CoatingMap
 
-_REGISTERING = (limits, moduli, reduction, tangential, wear_and_spectra)  # by their import
+_REGISTERING = (moduli, tangential, wear_and_spectra)  # by their import
 
 CLAIMS: tuple[Claim, ...] = in_order()
 """Every measurable part of every claim, in the order of the table."""

@@ -1,4 +1,6 @@
-"""Claims C6 to C9: what E and K do to the peaks, two nodal diameters, θ = 0."""
+"""Claims C6 to C9 and C12: what E and K do to the peaks, two nodal diameters, θ = 0."""
+
+import itertools
 
 import numpy as np
 import pandas as pd
@@ -7,6 +9,7 @@ from bladerub.study import paper
 from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, above, below, claim, ratio
 from bladerub.study.findings.evidence import Evidence
 
+_STIFF = 5.0  # E from which on a stiffer coating should be nearer to the rigid casing
 _HIGH = ((1.1, 5.0), (0.5, 0.5), (1.5, 1.0))  # other (E, K) with "very high amplitudes" (footnote 8)
 _SECTION = 'section "Local maxima evolution"'
 
@@ -139,3 +142,60 @@ def _soft_hardening(evidence: Evidence, order: int, column: str) -> pd.DataFrame
     if table.empty:
         raise NotMeasurable(f"no K up to {paper.SOFT_HARDENING:g} with two E or more in the study")
     return table
+
+
+@claim(
+    "C12a", 'above E = 20 contact is as with the rigid casing ("Local maxima evolution", end of paragraph 2)'
+)
+def stiff_is_rigid(evidence: Evidence) -> Finding:
+    """How far Y4, f4, Y6 and f6 lie from those of the rigid casing, each in units of `paper.HARDLY`.
+
+    The largest of the four is the distance. K is the highest of the study, because a high E alone makes a
+    coating rigid-plastic, not rigid. The claim holds if the stiffest E is within a distance of 1 and no
+    softer one from E = 5 on is nearer; partly, if only one of these is so. The margin is the distance that is
+    left to the first border.
+    """
+    keys = itertools.product(paper.ORDERS, paper.HARDLY)
+    peaks = {(order, column): _offset(evidence, order, column) for order, column in keys}
+    scaled = {key: offset.abs() / paper.HARDLY[key[1]] for key, offset in peaks.items()}
+    distance = pd.DataFrame(scaled).max(axis=1)
+    stiffest, softer = distance.iloc[-1], distance.iloc[:-1]
+    close, nearest = stiffest <= 1, stiffest <= softer.min()
+    offsets = [
+        f"Y{order} {offset.iloc[-1]:+.0%}" if column == "amplitude" else f"f{order} {offset.iloc[-1]:+.3f}"
+        for (order, column), offset in peaks.items()
+    ]
+    softer_one = "none softer is nearer" if nearest else f"E = {softer.idxmin():g} is nearer"
+    return Finding(
+        claim=f"above E = 20 contact is as with the rigid casing: offset at E = {distance.index[-1]:g}",
+        paper="near 0",
+        measured=f"{', '.join(offsets)}; {softer_one}",
+        unit="1",
+        holds=YES if close and nearest else PARTLY if close or nearest else NO,
+        margin=float(min(1.0, softer.min()) - stiffest),
+    )
+
+
+def _offset(evidence: Evidence, order: int, column: str) -> pd.Series:
+    """Return by what Y_k (relative) or f_k exceeds that of the rigid casing, over the stiff E, ascending."""
+    rigid = evidence.peak(paper.RIGID, order, column)
+    stiff = evidence.moduli(paper.CASING, paper.THETA, order, column).iloc[-1].dropna()
+    stiff = stiff[stiff.index >= _STIFF]
+    if stiff.size < 2 or stiff.index[-1] < paper.STIFFEST:
+        raise NotMeasurable(f"at the highest K no E from {paper.STIFFEST:g} on and another from {_STIFF:g} on")
+    if column == "amplitude":
+        return stiff.map(lambda height: ratio(height, rigid, paper.RIGID.name) - 1)
+    return stiff - rigid
+
+
+@claim("C12b", 'below E = 0.11 nothing dangerous happens (section "Local maxima evolution")')
+def softer_is_harmless(evidence: Evidence) -> Finding:
+    """Share of divergent runs on softer coatings."""
+    table = evidence.divergence
+    plain = (table.casing == paper.CASING) & (table.theta == paper.THETA) & (table.law == "theta")
+    softer = table[plain & (table.E < paper.SOFTEST)]
+    if softer.empty:
+        raise NotMeasurable(f"no coating softer than E = {paper.SOFTEST:g} in the study")
+    share = 100 * float(softer.divergent.mean())
+    text = "no dangerous interaction below E = 0.11: share of divergent runs"
+    return Finding(text, 0, share, "%", *below(share, 0, 5))
