@@ -39,7 +39,15 @@ def read_valid_blade(path: str | Path) -> ReducedBlade:
     Raises an OSError if the file is missing, unreadable or not a reduced blade, a ValueError if no runs can
     be computed with it; the messages name the file and the dataset.
     """
-    _check_file(path)
+    if os.path.exists(path) and not os.path.isfile(path):
+        kind = "a folder" if os.path.isdir(path) else "not a regular file"
+        raise OSError(f"{path}: is {kind}, must be a reduced blade (HDF5)")
+    if h5py.is_hdf5(path):  # what would not fit into memory is not read
+        with hdf5.opened(path) as file:
+            sizes = {name: getattr(entry, "shape", None) for name, entry in file.items()}
+        for name, shape in sizes.items():
+            if shape is None or max(shape, default=0) > LARGEST_MATRIX:
+                raise ValueError(f"{path}: not a reduced blade, {name} has the shape {shape}")
     return _valid(path, *hdf5.read_any(path))
 
 
@@ -52,23 +60,6 @@ def _valid(path: str | Path, data: Mapping[str, np.ndarray], attributes: Mapping
     except ValueError as error:
         raise ValueError(f"{path}: not a valid reduced blade, {error}") from error
     return blade
-
-
-def _check_file(path: str | Path) -> None:
-    """Check, before anything is read, that `path` is a file whose datasets fit into memory, if it is HDF5.
-
-    Raises an OSError or ValueError that names it.
-    """
-    if os.path.exists(path) and not os.path.isfile(path):
-        kind = "a folder" if os.path.isdir(path) else "not a regular file"
-        raise OSError(f"{path}: is {kind}, must be a reduced blade (HDF5)")
-    if not h5py.is_hdf5(path):
-        return
-    with hdf5.opened(path) as file:
-        sizes = {name: getattr(entry, "shape", None) for name, entry in file.items()}
-    for name, shape in sizes.items():
-        if shape is None or max(shape, default=0) > LARGEST_MATRIX:
-            raise ValueError(f"{path}: not a reduced blade, {name} has the shape {shape}")
 
 
 def _check(blade: ReducedBlade) -> None:

@@ -88,7 +88,8 @@ def take(
     folder, settings = Path(folder), config.analysis.divergence
     manifest = folder / "manifest.tsv"
     damaged = damaged_files(manifest, thorough=thorough)
-    sizes = _sizes(folder)
+    paths = (Path(place, name) for place, _, names in os.walk(folder) for name in names)
+    sizes = {path: path.stat().st_size for path in paths if path.is_file()}
     unreadable = []
     manifest_runs = {} if thorough or damaged else _listed(manifest, sizes, growth_key(config))
 
@@ -125,12 +126,6 @@ def take(
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"
     counts["bytes"] = sum(sizes.values())
     return Inventory(counts, damaged, unreadable)
-
-
-def _sizes(folder: Path) -> dict[Path, int]:
-    """Size of each file in the folder and those below it."""
-    paths = (Path(place, name) for place, _, names in os.walk(folder) for name in names)
-    return {path: path.stat().st_size for path in paths if path.is_file()}
 
 
 def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[Path, _RunSummary]:
