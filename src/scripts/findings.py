@@ -4,17 +4,18 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
+from bladerub.io import tables
 from bladerub.settings.study import typed
-from bladerub.study import findings
-from bladerub.study.findings.evidence import read_rom_accuracy
+from bladerub.study import divergence, findings, peaks
+from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
-table = findings.table(
-    typed(snakemake.config),
-    map(read_map, snakemake.input.maps),
-    snakemake.input.peaks,
-    snakemake.input.divergence,
-    read_rom_accuracy(snakemake.input.rom_accuracy),
-)
-outputs.save(snakemake, table=table)
+inputs = snakemake.input
+measured_on = {
+    "peaks": tables.read(inputs.peaks, peaks.COLUMNS),
+    "divergence": tables.read(inputs.divergence, divergence.COLUMNS),
+    "rom_accuracy": read_rom_accuracy(inputs.rom_accuracy),
+}
+evidence = Evidence(typed(snakemake.config), measured_on, map(read_map, inputs.maps))
+outputs.save(snakemake, table=findings.judge(evidence))

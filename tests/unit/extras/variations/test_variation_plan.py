@@ -182,7 +182,7 @@ def test_each_set_has_verdicts_measures_and_cost_and_equal_blades_are_built_once
 ):
     built = []  # cones of the blades
 
-    def write(cone, origin, model, mesh, rom_accuracy):
+    def write(cone, origin, model):
         built.append(cone)
         model.touch()
 
