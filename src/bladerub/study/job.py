@@ -52,9 +52,6 @@ class _End(NamedTuple):
     status: str
 
 
-_Longer = Callable[[PlannedRun, _End], PlannedRun | None]  # plans the longer run of one that has ended so
-
-
 class _RunFile(NamedTuple):
     """A run that is in its file."""
 
@@ -81,15 +78,11 @@ def compute_missing(
     `report` is called with a line for a log: a `RunDone` after each computed run, or a text before waiting.
     `threads` runs are computed at once, or all together by a solver that does so (`bladerub.study.solver`).
     """
-    job, folder = _Job(config, plan, blade, blade_digest, report, threads), Path(folder)
-
-    def missing_longer(run: PlannedRun, end: _End) -> PlannedRun | None:
-        longer = job.longer(run, end)
-        return longer if longer and not job.entry(folder, longer).fetch() else None
-
+    folder = Path(folder)
+    job = _Job(config, plan, blade, blade_digest, report, threads, folder)
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
-        files = job.complete(folder, plan.runs, missing_longer)
-        files |= job.complete(folder, job.not_begun({file: each.end for file, each in files.items()}))
+        files = job.complete(plan.runs)
+        files |= job.complete(job.not_begun({file: each.end for file, each in files.items()}))
         return [_row(files[run.file], files.get(longer_file(run))) for run in plan.runs]
 
 
@@ -109,7 +102,7 @@ def compute_all(
     """
     job = _Job(config, plan, blade, blade_digest, report, threads)
     stored_runs, files = {}, {run.file for run in plan.runs}
-    for run, stored, _ in job.computed(plan.runs, job.longer):
+    for run, stored, _ in job.computed(plan.runs):
         stored_runs[run.file] = stored
         if run.file in files:
             advance()
@@ -161,9 +154,10 @@ class _Job:
     blade_digest: str
     report: Callable[[object], None]
     threads: int
+    folder: Path | None = None  # of the files; None for what stays in memory
 
     def longer(self, run: PlannedRun, end: _End) -> PlannedRun | None:
-        """Plan the longer run of one that grows and is to be followed."""
+        """Plan the longer run of one that grows and is to be followed; none grows that is one itself."""
         grows = run.follow and needs_confirmation(*end, self.config.analysis.divergence)
         return longer_run(self.config, run) if grows else None
 
@@ -172,23 +166,20 @@ class _Job:
         longer = (self.longer(run, ends[run.file]) for run in self.plan.runs)
         return [run for run in longer if run and run.file not in ends]
 
-    def entry(self, folder: Path, run: PlannedRun) -> Entry:
+    def entry(self, run: PlannedRun) -> Entry:
         """Return the entry of a run in the store."""
-        return Entry(folder / run.file, run.key(self.blade_digest), MAPPED)
+        return Entry(self.folder / run.file, run.key(self.blade_digest), MAPPED)
 
-    def complete(
-        self, folder: Path, runs: Sequence[PlannedRun], longer: _Longer = lambda run, end: None
-    ) -> dict[str, _RunFile]:
-        """Compute what is missing or stale of `runs`, and their `longer` ones; return all by file."""
-        entries = {run.file: self.entry(folder, run) for run in runs}
+    def complete(self, runs: Sequence[PlannedRun]) -> dict[str, _RunFile]:
+        """Compute what is missing or stale of `runs`, and what goes on of these; return all by file."""
+        entries = {run.file: self.entry(run) for run in runs}
         missing = {run.file: run for run in runs if not entries[run.file].fetch()}
         origin, run_files, total = provenance(self.config.plain()), {}, len(missing)
         # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
         cost_left = sum(1 / run.spec.f_omega for run in missing.values())
         cost_done, start = 0.0, time.monotonic()
-        computed = self.computed(list(missing.values()), longer)
-        for number, (run, stored, seconds) in enumerate(computed, 1):
-            entry = self.entry(folder, run)
+        for number, (run, stored, seconds) in enumerate(self.computed(list(missing.values())), 1):
+            entry = self.entry(run)
             entry.make_room()
             run_files[run.file] = self.run_file(run, entry, stored, write_run(entry.path, stored, origin))
             if run.file in missing:
@@ -222,12 +213,10 @@ class _Job:
         )
         return _RunFile(row, _end(stored))
 
-    def computed(
-        self, runs: Sequence[PlannedRun], longer: _Longer = lambda run, end: None
-    ) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
+    def computed(self, runs: Sequence[PlannedRun]) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
         """Yield each run as it is done, and the seconds that it took; rows last.
 
-        The `longer` run of a single blade comes next, if the solver goes on with runs.
+        The longer run of a single blade comes next, if its file is missing and the solver goes on with runs.
         """
         case, analysis = self.plan.case, self.config.analysis
 
@@ -237,8 +226,9 @@ class _Job:
             return stored, time.monotonic() - start
 
         def revolutions(number: int, result: RunResult) -> int:
-            run = longer(single[number], _End(result.revolution_amplitude, result.status))
-            return run.spec.revolutions if run else 0
+            run = self.longer(single[number], _End(result.revolution_amplitude, result.status))
+            is_there = run and self.folder and self.entry(run).fetch()
+            return run.spec.revolutions if run and not is_there else 0
 
         single = [run for run in runs if not run.row]
         specs, solver = [run.spec for run in single], solver_of(self.config)

@@ -182,7 +182,9 @@ def _offset(evidence: Evidence, order: int, column: str) -> pd.Series:
     stiff = evidence.moduli(paper.CASING, paper.THETA, order, column).iloc[-1].dropna()
     stiff = stiff[stiff.index >= _STIFF]
     if stiff.size < 2 or stiff.index[-1] < paper.STIFFEST:
-        raise NotMeasurable(f"at the highest K no E from {paper.STIFFEST:g} on and another from {_STIFF:g} on")
+        raise NotMeasurable(
+            f"at the highest K no E from {paper.STIFFEST:g} on and another from {_STIFF:g} on"
+        )
     if column == "amplitude":
         return stiff.map(lambda height: ratio(height, rigid, paper.RIGID.name) - 1)
     return stiff - rigid
