@@ -240,9 +240,8 @@ def simulate_speeds(
     results = solve_all(blade, runs, jobs, follow, progress)
     stored = [run.stored for run in results]
     longer = [run.longer.stored if run.longer else None for run in results]
-    f_omega, prominence = [run.f_omega for run in runs], coating.config.analysis.lobe_prominence
-    C1 = maps.first_frequency(blade.reduced, f_omega)
-    collected = maps.collect(coating.case, f_omega, C1, stored, longer, prominence)
+    f_omega = [run.f_omega for run in runs]
+    collected = maps.collect(coating.config, coating.case, blade.reduced, f_omega, stored, longer)
     return Map(collected, blade.f1_hz, coating.config)
 
 

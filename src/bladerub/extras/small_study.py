@@ -18,7 +18,7 @@ from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import CoatingCase, coating_cases, speeds
 from bladerub.study.job import compute_all, compute_missing
 from bladerub.study.manifest import write_manifest
-from bladerub.study.maps import CoatingMap, build_map, collect, first_frequency, read_map
+from bladerub.study.maps import CoatingMap, build_map, collect, read_map
 from bladerub.study.plan import coating_plan
 from bladerub.study.solver import each_done, solver_of
 
@@ -89,6 +89,5 @@ def _in_memory(
 ) -> tuple[CoatingMap, int]:
     """Do as `map_coating` without files."""
     runs, longer = compute_all(config, coating_plan(config, case), blade, report=report)
-    planned, prominence = speeds(config), config.analysis.lobe_prominence
-    coating_map = collect(case, planned, first_frequency(blade, planned), runs, longer, prominence)
+    coating_map = collect(config, case, blade, speeds(config), runs, longer)
     return replace(coating_map, wear_node=None), len(runs) + sum(run is not None for run in longer)

@@ -94,13 +94,12 @@ def build_map(
 ) -> None:
     """Collect the runs of one coating in the map file `path`, with its `DATASETS`.
 
-    `rows` are those of the manifest of `runs_folder`. ``analysis.lobe_prominence`` of the
-    study `config` decides what counts as a lobe; `blade` is for its first frequency. Raises `OSError`, naming
-    the file, if a run is missing or damaged, or another than that of its row.
+    `rows` are those of the manifest of `runs_folder`. ``analysis.lobe_prominence`` of the study `config`
+    decides what counts as a lobe; `blade` is for its first frequency. Raises `OSError`, naming the file, if a
+    run is missing or damaged, or another than that of its row.
     """
     rows = sorted(rows, key=lambda row: row.f_omega)
-    C1 = first_frequency(blade, [row.f_omega for row in rows])
-    write_map(path, collect_listed(config, case, C1, Path(runs_folder), rows), provenance(config.plain()))
+    write_map(path, collect_listed(config, case, blade, Path(runs_folder), rows), provenance(config.plain()))
 
 
 def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:
@@ -109,18 +108,17 @@ def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:
 
 
 def collect_listed(
-    config: Config, case: CoatingCase, C1: np.ndarray, folder: Path, rows: Sequence[ManifestRow]
+    config: Config, case: CoatingCase, blade: ReducedBlade, folder: Path, rows: Sequence[ManifestRow]
 ) -> CoatingMap:
     """Collect the runs in `folder` that these rows of its manifest list, at ascending speeds.
 
-    `C1` is from `first_frequency`; other parameters are those of `build_map`, which raises the same.
+    Parameters and errors are those of `build_map`.
     """
     runs = [_listed_run(folder, folder / row.file, row.run_key, MAPPED) for row in rows]
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"})
     runs[0].data.update(scales.data)
     longer = [_longer_run(folder, row) for row in rows]
-    prominence = config.analysis.lobe_prominence
-    return collect(case, [row.f_omega for row in rows], C1, runs, longer, prominence)
+    return collect(config, case, blade, [row.f_omega for row in rows], runs, longer)
 
 
 def _longer_run(folder: Path, row: ManifestRow) -> StoredRun | None:
@@ -131,25 +129,26 @@ def _longer_run(folder: Path, row: ManifestRow) -> StoredRun | None:
 
 
 def collect(
+    config: Config,
     case: CoatingCase,
+    blade: ReducedBlade,
     speeds: Sequence[float],
-    C1: np.ndarray,
     runs: Sequence[StoredRun],
     longer: Sequence[StoredRun | None],
-    prominence: float,
 ) -> CoatingMap:
     """Collect runs of one coating at ascending speeds (normalised), and their longer runs or None.
 
-    Of the first run all datasets are needed, of the others `MAPPED`, of the longer ones the amplitude.
-    `C1` is from `first_frequency`, `prominence` decides what counts as a lobe.
+    Of the first run all datasets are needed, of the others `MAPPED`, of the longer ones the amplitude. Other
+    parameters are those of `build_map`.
     """
+    prominence = config.analysis.lobe_prominence
     scales = {name: runs[0].data[name] for name in ("angle", "spectrum_order")}
     collected = {name: np.stack([run.data[name] for run in runs]) for name in MAPPED}
     wear = collected.pop("wear")
     return CoatingMap(
         case=case,
         f_omega=np.array(speeds),
-        C1=C1,
+        C1=first_frequency(blade, speeds),
         wear=np.stack([run_wear.mean(axis=0) for run_wear in wear]),
         wear_node=wear,
         confirmation_amplitude=_confirmation_amplitude(longer),

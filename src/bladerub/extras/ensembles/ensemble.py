@@ -151,9 +151,8 @@ def make(
     rows = compute_missing(config, together, blade, folder, blade_digest, report, threads)
     write_manifest(folder / "manifest.tsv", rows)
     remaining_rows = iter(rows)
-    C1 = coating.C1[np.isin(coating.f_omega, [run.spec.f_omega for run in planned[0].runs])]
     *members, refined_runs = [
-        maps.collect_listed(config, coating.case, C1, folder, [next(remaining_rows) for _ in member.runs])
+        maps.collect_listed(config, coating.case, blade, folder, [next(remaining_rows) for _ in member.runs])
         for member in planned
     ]
     start = [[run.spec.initial_displacement for run in member.runs] for member in planned[:-1]]
