@@ -17,13 +17,13 @@ from bladerub.io.errors import format_value
 from bladerub.io.folders import study_folder
 from bladerub.settings.contact import AnyCasing
 from bladerub.settings.study import Config
-from bladerub.study.casings import casing_spec
 from bladerub.study.grid import (
     OWN,
     SPEED_DECIMALS,
     UNSCALED,
     CoatingCase,
     cases_of,
+    casing_spec,
     coating_cases,
     listed_case,
     speeds,

@@ -14,9 +14,16 @@ from bladerub.contact.casing import gap
 from bladerub.settings.study import Config
 from bladerub.settings.units import pressure_in_words
 from bladerub.study import grid
-from bladerub.study.casings import casing_spec, nodal_diameters
-from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speed_name, speeds
-from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
+from bladerub.study.grid import (
+    SPEED_DECIMALS,
+    UNSCALED,
+    casing_spec,
+    coating_cases,
+    listed_case,
+    speed_name,
+    speeds,
+)
+from bladerub.study.orders import excited_orders, excites, nodal_diameters, peak_orders, used_casings
 
 
 def notes(config: Config) -> list[str]:

@@ -11,11 +11,12 @@ import numpy as np
 
 from bladerub import plugins
 from bladerub.contact import laws
-from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec, TipProfile
+from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec, TipProfile
 from bladerub.io.errors import BadInput
 from bladerub.settings.coatings import OnCasing
+from bladerub.settings.contact import AnyCasing
+from bladerub.settings.contact import Casing as Waves
 from bladerub.settings.study import Config
-from bladerub.study.casings import casing_spec
 
 SPEED_DECIMALS = 6
 """Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
@@ -206,6 +207,32 @@ def element_law(config: Config) -> ElementLaw:
     Raises `ValueError` as `bladerub.contact.laws.element_law`.
     """
     return laws.element_law(config.contact.plugged("law"))
+
+
+def casing_spec(name: str, entry: AnyCasing, length_scale: float = 1.0) -> Casing:
+    """Describe an entry of ``casings`` in SI units; `length_scale` is ``contact.scale.length``.
+
+    Raises a ValueError that begins with the key if a kind that plugs in cannot be read, or none does.
+    """
+    if not isinstance(entry, Waves):
+        return casing_kind(entry).casing_spec(name, entry, length_scale)
+    return Casing(
+        name=name,
+        nodal_diameters=tuple(entry.nodal_diameters),
+        weights=tuple(entry.weights),
+        amplitude=entry.amplitude * length_scale,
+        interference=entry.interference * length_scale,
+        start_angle=math.radians(entry.start_angle),
+        bump_width=entry.bump_width or 0.0,
+    )
+
+
+def casing_kind(entry: AnyCasing) -> Any:
+    """Return the module that describes a casing which is no sum of waves or bumps, by the key that it has."""
+    for key, place in plugins.offered("CASINGS").items():
+        if entry.plugged(key) is not None:
+            return plugins.load(place)
+    raise ValueError("nodal_diameters: missing, this package has casings of these alone")
 
 
 def run_spec(config: Config, case: CoatingCase, f_omega: float) -> RunSpec:

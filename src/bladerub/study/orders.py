@@ -1,10 +1,9 @@
 """Engine orders at which the peaks of a coating are sought: those that its casing excites."""
 
 from bladerub.settings.analysis import Peaks
-from bladerub.settings.contact import AnyCasing
+from bladerub.settings.contact import AnyCasing, Casing
 from bladerub.settings.study import Config
-from bladerub.study.casings import nodal_diameters
-from bladerub.study.grid import coating_cases, speeds
+from bladerub.study.grid import casing_kind, coating_cases, speeds
 from bladerub.study.paper import ORDERS
 
 _DERIVED = 2  # orders of a casing that does not excite those of the config, as many as the paper has
@@ -29,6 +28,13 @@ def peak_orders(config: Config, casing: str) -> list[int]:
 def peak_settings(config: Config, casing: str) -> Peaks:
     """Return ``config.analysis.peaks`` with the `peak_orders` of this casing."""
     return config.analysis.peaks.replaced("orders", peak_orders(config, casing))
+
+
+def nodal_diameters(casing: AnyCasing) -> list[int]:
+    """List the nodal diameters of a casing of the config: those with weight."""
+    if not isinstance(casing, Casing):
+        return casing_kind(casing).nodal_diameters(casing)
+    return [n for n, w in zip(casing.nodal_diameters, casing.weights, strict=False) if w]
 
 
 def excites(casing: AnyCasing, order: int) -> bool:

@@ -28,7 +28,7 @@ EDITS = [  # the file, the digest that it belongs to, one that it does not
     ("extras/chart/point.py", CHART, SOLVER),
 ]
 NUMBERLESS = ("io/", "plugins.py", "settings/")  # compute no number
-CONFIG = {"study/grid.py", "study/casings.py"}
+CONFIG = {"study/grid.py"}
 """What makes values of the config, which are in the key."""
 OF_CHART = {"study/orders.py", "study/paper.py", "study/manifest.py"}  # manifest: the name of a longer run
 FILES = {

@@ -1,4 +1,4 @@
-"""A casing whose gap was measured around it, as a table (`bladerub.study.casings`)."""
+"""A casing whose gap was measured around it, as a table (`bladerub.study.grid`)."""
 
 import math
 from functools import lru_cache
