@@ -39,10 +39,8 @@ def accuracy_table(
     """
     rows = []
     for f_omega, frequencies in finite_element.items():
-        reduced = reduced_frequencies(blade, f_omega, len(frequencies))
-        for mode, (f_fe, f_eq2, f_rom) in enumerate(
-            zip(frequencies, speed_law[f_omega], reduced, strict=True), 1
-        ):
+        columns = frequencies, speed_law[f_omega], reduced_frequencies(blade, f_omega, len(frequencies))
+        for mode, (f_fe, f_eq2, f_rom) in enumerate(zip(*columns, strict=True), 1):
             rows.append((f_omega, mode, f_fe, f_eq2, f_rom, f_rom / f_fe - 1))
     return pd.DataFrame(rows, columns=ACCURACY_COLUMNS)
 

@@ -85,9 +85,7 @@ def height_varies(evidence: Evidence, order: int, figure: str) -> Finding:
     """Largest range over E, relative to the mean over E."""
     table = _soft_hardening(evidence, order, "amplitude")
     widths, heights = table.max(axis=1) - table.min(axis=1), table.mean(axis=1)
-    spread = max(
-        ratio(*width_and_height, f"Y{order}") for width_and_height in zip(widths, heights, strict=True)
-    )
+    spread = max(ratio(width, height, f"Y{order}") for width, height in zip(widths, heights, strict=True))
     text = f"Y{order} hardly varies with E for K <= 0.1: largest range over its mean ({figure})"
     return Finding(text, "near 0", spread, "1", *below(spread, paper.HARDLY["amplitude"], 0.5))
 
@@ -178,13 +176,11 @@ def stiff_is_rigid(evidence: Evidence) -> Finding:
 
 def _offset(evidence: Evidence, order: int, column: str) -> pd.Series:
     """Return by what Y_k (relative) or f_k exceeds that of the rigid casing, over the stiff E, ascending."""
-    rigid = evidence.peak(paper.RIGID, order, column)
+    rigid, stiffest = evidence.peak(paper.RIGID, order, column), paper.STIFFEST
     stiff = evidence.moduli(paper.CASING, paper.THETA, order, column).iloc[-1].dropna()
     stiff = stiff[stiff.index >= _STIFF]
-    if stiff.size < 2 or stiff.index[-1] < paper.STIFFEST:
-        raise NotMeasurable(
-            f"at the highest K no E from {paper.STIFFEST:g} on and another from {_STIFF:g} on"
-        )
+    if stiff.size < 2 or stiff.index[-1] < stiffest:
+        raise NotMeasurable(f"at the highest K no E from {stiffest:g} on and another from {_STIFF:g} on")
     if column == "amplitude":
         return stiff.map(lambda height: ratio(height, rigid, paper.RIGID.name) - 1)
     return stiff - rigid
