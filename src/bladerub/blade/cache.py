@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.blade.files import made_from, recipe
-from bladerub.blade.source import reader_digest
+from bladerub.blade.source import reader
 from bladerub.io import atomic
 from bladerub.io.folders import cache_folder
 from bladerub.io.provenance import packages
-from bladerub.io.sources import digest_of
+from bladerub.io.sources import digest_of, source_digest
 from bladerub.settings.blade import Blade, BladeSpec
 
 
@@ -25,7 +25,9 @@ def kept_at(config: BladeSpec) -> Path:
 
 
 def _name(blade: Blade, origin: Any) -> str:
-    content = [origin, digest_of("blade"), reader_digest(blade), packages()]
+    module = reader(blade)
+    reading = module and source_digest(Path(module.__file__).parent.rglob("*.py"))
+    content = [origin, digest_of("blade"), reading, packages()]
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
 
 

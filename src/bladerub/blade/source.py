@@ -13,12 +13,10 @@ Each key of ``blade.source`` that names a place, such as a file, has a module of
 ============================= ==========================================================================
 """
 
-from pathlib import Path
 from types import ModuleType
 
 from bladerub import plugins
 from bladerub.io.errors import BadInput
-from bladerub.io.sources import source_digest
 from bladerub.settings.blade import Blade
 
 FUNCTIONS = ("problems", "recipe", "files", "build", "frequency_at_rest")
@@ -57,9 +55,3 @@ def files(blade: Blade) -> list[str]:
     """List the files that the block ``blade`` names; ValueError if one that is needed is missing."""
     module = reader(blade)
     return module.files(blade.plugged("source")) if module else []
-
-
-def reader_digest(blade: Blade) -> str | None:
-    """Digest the sources in the folder of the module for the block ``blade``; None of a parametric blade."""
-    module = reader(blade)
-    return module and source_digest(Path(module.__file__).parent.rglob("*.py"))
