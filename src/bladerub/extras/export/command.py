@@ -101,7 +101,7 @@ def _motion(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
 
     with refused(OSError):
         mesh = read_mesh(blade.mesh_path, blade.reduced)
-        stress = stress_of(blade.mesh_path, run.attributes["f_omega"])
+        stress = stress_of(blade.mesh_path, run.attributes["f_omega"]) if len(mesh["cells"]) else None
     recording = _record(options, run, plan, blade.reduced, all_revolutions=False)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
     about = {name: run.attributes[name] for name in names} | provenance(config.plain())

@@ -56,33 +56,30 @@ class RunStress:
         return cls(**parts) if parts["last"] else None
 
 
-def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
-    """Return how to find the stress at the speed `f_omega` of the blade in `path`, its ``mesh.h5``.
+def has_elements(path: str | Path) -> bool:
+    """Whether the blade of `path`, its ``mesh.h5``, has any: one of matrices alone tells of no stress."""
+    return bool(len(hdf5.read(path, {"cells"})[0]["cells"]))
 
-    None where the blade is of matrices alone: they tell of no stress.
-    """
+
+def stress_of(path: str | Path, f_omega: float) -> NodalStress:
+    """Return how to find the stress at the speed `f_omega` of the blade of `path`, which has elements."""
     mesh, attributes = hdf5.read(path)
-    if not len(mesh["cells"]):
-        return None
     material = Material.model_validate(json.loads(attributes["made_from"])["blade"]["material"])
     running = running_displacement(mesh["f_omega"], mesh["static_displacement"], f_omega)
     return NodalStress(mesh["points"], mesh["cells"], material, running)
 
 
-def modal_stress(path: str | Path, f_omega: float, patterns: np.ndarray | None = None) -> ModalStress | None:
-    """Return the stress as a function of the reduced coordinates, or of others; None as `stress_of`.
+def modal_stress(path: str | Path, f_omega: float, patterns: np.ndarray | None = None) -> ModalStress:
+    """Return the stress, as of `stress_of`, as a function of the reduced coordinates, or of others.
 
     Each of the others has reduced coordinates `patterns` (k, n). Nodes of elements with an interface node are
     left out: that a contact force acts in a point is of the model, and the stress there of the mesh.
     """
-    at_speed = stress_of(path, f_omega)
-    if at_speed is None:
-        return None
     mesh, _ = hdf5.read(path, {"recovery", "points", "cells", "interface_nodes"})
     displaced = mesh["recovery"] if patterns is None else np.tensordot(patterns, mesh["recovery"], axes=1)
     touching = np.isin(mesh["cells"], mesh["interface_nodes"]).any(axis=1)
     nodes = np.setdiff1d(mesh["cells"], mesh["cells"][touching])
-    return ModalStress.of_mesh(at_speed, displaced, mesh["points"], nodes)
+    return ModalStress.of_mesh(stress_of(path, f_omega), displaced, mesh["points"], nodes)
 
 
 class BladeStress:
@@ -94,18 +91,15 @@ class BladeStress:
     """
 
     def __init__(self, path: str | Path, blade: ReducedBlade):
+        if not has_elements(path):
+            raise BadInput(f"{path}: the blade is of matrices alone, which tell of no stress")
         fastest = float(hdf5.read(path, {"f_omega"})[0]["f_omega"].max())
         self._squares = np.array([0.0, 0.5, 1.0]) * fastest**2
-        stresses: list[ModalStress] = []
-        for speed in np.sqrt(self._squares)[::-1]:
-            stress = modal_stress(path, speed)
-            if stress is None:
-                raise BadInput(f"{path}: the blade is of matrices alone, which tell of no stress")
-            if not stresses:
-                modes = mode_shapes_at(blade, fastest)[1][:, :_MODES]
-                nodes = stressed_nodes(stress.of(modes.T), _SHARE)
-            stresses.insert(0, stress.at(nodes))
-        self._at, self._blade = stresses, blade
+        *slower, highest = np.sqrt(self._squares)
+        whole = modal_stress(path, highest)
+        nodes = stressed_nodes(whole.of(mode_shapes_at(blade, fastest)[1][:, :_MODES].T), _SHARE)
+        self._at = [*(modal_stress(path, speed).at(nodes) for speed in slower), whole.at(nodes)]
+        self._blade = blade
 
     def at(self, f_omega: float) -> ModalStress:
         """Return the stress at the speed `f_omega` as a function of the reduced coordinates."""
@@ -145,7 +139,7 @@ class StressSolver:
     ) -> RunResult:
         """Simulate the run; its `stress` is there afterwards."""
         self.stress = None
-        if stress_of(self._mesh, spec.f_omega) is None:
+        if not has_elements(self._mesh):
             return simulate(blade, spec, progress)
         run = simulate_sampled(blade, spec, INSTANTS, progress)
         stress = modal_stress(self._mesh, spec.f_omega, run.patterns)

@@ -7,8 +7,9 @@ from bladerub.extras.export.recording import record
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.stress import sampling
 from bladerub.extras.stress.peak import ModalStress, principal, static_peak, stress_peaks, von_mises
-from bladerub.extras.stress.run import StressSolver
+from bladerub.extras.stress.run import BladeStress, StressSolver
 from bladerub.io import hdf5
+from bladerub.io.errors import BadInput
 
 
 def six(tensor):
@@ -88,3 +89,5 @@ def test_a_run_of_a_blade_of_matrices_tells_of_no_stress(tmp_path, blade, spec):
     result = solver(blade, spec)
     assert solver.stress is None
     np.testing.assert_array_equal(result.wear, simulate(blade, spec).wear)
+    with pytest.raises(BadInput, match="the blade is of matrices alone"):
+        BladeStress(path, blade)
