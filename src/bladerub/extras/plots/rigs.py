@@ -6,6 +6,9 @@ from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots.style import BLUE, ORANGE, PAGE, new_figure, styled
 
+_FORCES = {"normal_force": ("normal", BLUE, 1.0), "tangential_force": ("tangential", ORANGE, 1.0)}
+_DEPTHS = {"tip_depth": ("of the tip", BLUE, 1e6), "worn_depth": ("worn", ORANGE, 1e6)}
+
 
 @styled
 def rigs(passes: pd.DataFrame, compared: pd.DataFrame) -> Figure:
@@ -33,7 +36,3 @@ def rigs(passes: pd.DataFrame, compared: pd.DataFrame) -> Figure:
         forces.set(title=f"{name}: force, N")
         depths.set(title=f"{name}: depth, µm")
     return figure
-
-
-_FORCES = {"normal_force": ("normal", BLUE, 1.0), "tangential_force": ("tangential", ORANGE, 1.0)}
-_DEPTHS = {"tip_depth": ("of the tip", BLUE, 1e6), "worn_depth": ("worn", ORANGE, 1e6)}

@@ -33,6 +33,8 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
     environment = jinja.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= vars(words)
     config, explorer = results.config, results.folder / "explorer.html"
+    engine = Engine(results.f1_hz, config.figures.nominal_speed)
+    scales = Scales(modulus_unit(config), config.blade.length, engine)
     return environment.get_template("page.html").render(
         NONE=words.NONE,
         STRESS=STRESS,
@@ -48,21 +50,16 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
         specs={case.casing: run_spec(config, case.with_own(), 0.0) for case in results.cases.values()},
         modulus_unit=modulus_unit(config),
         degrees=math.degrees,
-        campbell=_campbell(results),
-        pictures={name: _maps(results, name) for name in shown},
+        campbell=_campbell(results, engine),
+        pictures={name: _maps(results, name, scales) for name in shown},
         explorer=Path(os.path.relpath(explorer.absolute(), folder)).as_posix() if explorer.exists() else None,
     )
 
 
-def _scales(results: Results) -> Scales:
-    engine = Engine(results.f1_hz, results.config.figures.nominal_speed)
-    return Scales(modulus_unit(results.config), results.config.blade.length, engine)
-
-
-def _campbell(results: Results) -> str:
+def _campbell(results: Results, engine: Engine) -> str:
     """Draw the Campbell diagram with the peaks of all coatings, as SVG."""
     modes = results.campbell.pivot(index="f_omega", columns="mode") / results.f1_hz
-    figure = campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS, _scales(results).engine)
+    figure = campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS, engine)
     peaks = results.peaks.dropna(subset=["f_peak"])
     look = {"linestyle": "none", "marker": "o", "fillstyle": "none", "markersize": 5, "color": RED}
     figure.axes[-1].plot(peaks.f_peak, peaks.order * peaks.f_peak, label="_peaks", zorder=4, **look)
@@ -73,9 +70,9 @@ def _campbell(results: Results) -> str:
     return svg[svg.index("<svg") :].replace("<svg", '<svg role="img" aria-label="Campbell diagram"', 1)
 
 
-def _maps(results: Results, name: str) -> dict[str, str]:
+def _maps(results: Results, name: str, scales: Scales) -> dict[str, str]:
     """Draw wear and spectra of a coating over the speed, as addresses of PNGs that hold them, by caption."""
-    figures, scales, coating = results.config.figures, _scales(results), results.map(name)
+    figures, coating = results.config.figures, results.map(name)
     ends, highest, worn = tuple(figures.amplitude_range), figures.max_frequency, coating.max_wear.any()
     drawn = {"Worn depth around the casing over the speed": wear_map(coating, scales)} if worn else {}
     drawn["Vibration over frequency and speed"] = spectrum_map(coating, ends, highest, scales)
