@@ -63,7 +63,7 @@ def has_elements(path: str | Path) -> bool:
 
 def stress_of(path: str | Path, f_omega: float) -> NodalStress:
     """Return how to find the stress at the speed `f_omega` of the blade of `path`, which has elements."""
-    mesh, attributes = hdf5.read(path)
+    mesh, attributes = hdf5.read(path, {"points", "cells", "f_omega", "static_displacement"})
     material = Material.model_validate(json.loads(attributes["made_from"])["blade"]["material"])
     running = running_displacement(mesh["f_omega"], mesh["static_displacement"], f_omega)
     return NodalStress(mesh["points"], mesh["cells"], material, running)
