@@ -88,12 +88,12 @@ def ritz(points, material, n_modes, terms=(9, 3, 11)):
     return np.sqrt(squares) / (2 * np.pi)
 
 
-def beam_ritz(speed, hub_radius=0.0, n_terms=16):
+def beam_ritz(speed, hub_radius=0.0):
     """Flapwise frequencies of the rotating Euler-Bernoulli beam, dimensionless.
 
     Minimises ∫ w″² + T w′² over ∫ w² with T = η² (δ (1 − x) + (1 − x²) / 2), hub radius δ L.
     """
-    x, weight, (w, slope, bend) = _shapes(n_terms, 2)
+    x, weight, (w, slope, bend) = _shapes(16, 2)
     tension = speed**2 * (hub_radius * (1 - x) + (1 - x**2) / 2)
     stiffness = (bend.T * weight) @ bend + (slope.T * weight * tension) @ slope
     return np.sqrt(eigh(stiffness, (w.T * weight) @ w, eigvals_only=True))

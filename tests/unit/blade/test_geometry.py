@@ -6,8 +6,8 @@ from scipy.interpolate import CubicSpline
 from bladerub.blade.geometry import BladeShape, check, corner_jacobians
 
 
-def camber_line(config, xi, span=1.0):
-    return BladeShape.from_config(config).points(np.asarray(xi, dtype=float), 0.5, span)
+def camber_line_at_tip(config, xi):
+    return BladeShape.from_config(config).points(np.asarray(xi, dtype=float), 0.5, 1.0)
 
 
 @pytest.mark.parametrize("n", [2, 3, 4])
@@ -21,19 +21,19 @@ def test_sections_are_on_a_cubic_spline_to_the_last_bit(n):
 
 def test_lean_and_stagger_are_with_the_rotation_and_sweep_goes_downstream(blade_config):
     moved = [section(0.0), section(1.0, lean=0.03, sweep=0.01)]
-    x, y, z = camber_line(blade_config.replaced("sections", moved), 0.5)
+    x, y, z = camber_line_at_tip(blade_config.replaced("sections", moved), 0.5)
     assert np.arctan2(y, z) == pytest.approx(0.03 / 0.65, rel=1e-12)
     assert x == pytest.approx(0.01, rel=1e-12)
     turned = [section(0.0), section(1.0, stagger=30.0)]  # puts the leading edge upstream and ahead
     blade = blade_config.replaced("sections", turned)
-    (x_lead, x_trail), (y_lead, y_trail), _ = camber_line(blade, [0.0, 1.0])
+    (x_lead, x_trail), (y_lead, y_trail), _ = camber_line_at_tip(blade, [0.0, 1.0])
     assert x_trail - x_lead == pytest.approx(0.08 * np.cos(np.pi / 6), rel=1e-12)
     assert y_lead > 0 > y_trail
 
 
 def test_camber_turns_by_its_angle_with_the_hollow_side_ahead(blade_config):
     blade, step = blade_config.replaced("sections", [section(s, camber=20.0) for s in (0.0, 1.0)]), 1e-6
-    x, y, z = camber_line(blade, [0.0, step, 1 - step, 1.0])
+    x, y, z = camber_line_at_tip(blade, [0.0, step, 1 - step, 1.0])
     t = 0.65 * np.arctan2(y, z)
     slope = np.diff(t) / np.diff(x)
     assert np.rad2deg(np.arctan(slope[-1]) - np.arctan(slope[0])) == pytest.approx(20.0, abs=1e-3)
@@ -44,7 +44,7 @@ def test_sections_are_stacked_by_the_centroid_of_the_camber_line(twisted_config)
     hub, tip = twisted_config.sections
     xi = (np.arange(2000) + 0.5) / 2000
     stacked = [hub, tip.replaced("sweep", 0.0).replaced("lean", 0.0)]
-    x, y, z = camber_line(twisted_config.replaced("sections", stacked), xi)
+    x, y, z = camber_line_at_tip(twisted_config.replaced("sections", stacked), xi)
     assert x.mean() == pytest.approx(0.0, abs=1e-8)
     assert np.arctan2(y, z).mean() == pytest.approx(0.0, abs=1e-8)
 

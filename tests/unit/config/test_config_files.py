@@ -25,9 +25,9 @@ def folder(tmp_path, monkeypatch):
     return write
 
 
-def error_of(*paths, command_line=None):
+def error_of(path):
     with pytest.raises(ConfigError) as error:
-        compose(*paths, command_line=command_line)
+        compose(path)
     return str(error.value)
 
 

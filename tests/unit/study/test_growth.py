@@ -15,9 +15,9 @@ def saturation(number, tau):
     return 1 - np.exp(-number / tau)
 
 
-def scattered(amplitude, scatter, correlation=0.0, n=300, seed=3):
+def scattered(amplitude, scatter, correlation=0.0, n=300):
     """The amplitude n times, its logarithm with normal scatter that neighbouring revolutions may share."""
-    noise = np.random.default_rng(seed).standard_normal((n, amplitude.size))
+    noise = np.random.default_rng(3).standard_normal((n, amplitude.size))
     for i in range(1, amplitude.size):
         noise[:, i] = correlation * noise[:, i - 1] + np.sqrt(1 - correlation**2) * noise[:, i]
     return amplitude * np.exp(scatter * noise)

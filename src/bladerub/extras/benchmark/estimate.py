@@ -50,14 +50,14 @@ class _Cost(NamedTuple):
     is_near_a_peak: bool
 
 
-def estimate(blade: ReducedBlade, config: Config, cores: int, drawn: int = DRAWN) -> dict[str, Any]:
-    """Estimate the time of the study `config` from `drawn` of its runs, on so many `cores`.
+def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
+    """Estimate the time of the study `config` from `DRAWN` of its runs, on so many `cores`.
 
     Returns CPU seconds of one run (``seconds_per_run``, of the length in the config), the number of ``runs``
     and ``members``, the ``cores``, and the ``study_minutes`` of wall time on them.
     """
     runs = study_runs(config)
-    step = max(1, len(runs) // drawn)
+    step = max(1, len(runs) // DRAWN)
     n_threads = min(cores, cores_here())  # at once, so that the cores share caches as in the study
     with tempfile.TemporaryDirectory() as folder:
         cost_of_run = partial(_cost, blade, config, Path(folder))

@@ -46,7 +46,8 @@ def test_runs_and_members_cost_what_the_drawn_ones_do(blade, monkeypatch):
     costs = {True: estimate._Cost(1.0, 3.0, True), False: estimate._Cost(2.0, 0.0, False)}
     monkeypatch.setattr(estimate, "_cost", lambda blade, config, folder, run: costs[run.f_omega == 0.16])
     monkeypatch.setattr(estimate, "_start", lambda imported: 0.5)
-    found = estimate.estimate(blade, study, cores=4, drawn=1000)
+    monkeypatch.setattr(estimate, "DRAWN", 1000)  # all
+    found = estimate.estimate(blade, study, cores=4)
     runs = len(study_runs(study))
     near, members = 2, (2 + 2) * (1 + 3 * 2 + 3 * 2)  # and refined: histories, each peak with its neighbours
     seconds = near * 4.0 + (runs - near) * 2.0 + members * 4.0 + 2 * 3 * 0.5
