@@ -76,18 +76,17 @@ def benchmark(options: argparse.Namespace) -> None:
     stored_blade, config = inputs.read_blade(options, config)
     blade = stored_blade.reduced
 
-    from bladerub.extras.benchmark import measure
+    from bladerub.extras.benchmark import estimate, measure
 
     figures = measure.benchmark(blade, config, options.rounds, options.cores, _report_stage)
     if options.nodes:
         _report_stage("building blades with more interface nodes")
         figures["cost_by_nodes"] = measure.cost_by_nodes(config, options.nodes, options.rounds)
     if options.stress:
-        from bladerub.extras.stress.cost import cost_of_stress
-
         _report_stage("timing runs with the stress of the blade")
         with inputs.refused(OSError, BadInput, because="--stress: "):
-            figures["cost_of_stress"] = cost_of_stress(stored_blade.mesh_path, blade, config, options.rounds)
+            mesh = stored_blade.mesh_path
+            figures["cost_of_stress"] = estimate.cost_of_stress(mesh, blade, config, options.rounds)
     if options.table:
         from bladerub.io.provenance import provenance
 

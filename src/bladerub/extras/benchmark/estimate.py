@@ -1,4 +1,4 @@
-"""How long the whole study takes on this machine, estimated from runs that are drawn from it.
+"""How long the whole study takes on this machine, and what the stress of its runs costs, from drawn ones.
 
 1. Runs at even distances in the list of the study, so from all coatings and speeds, are computed and stored
    as the study does it, in as many threads as it would have jobs. Those that grow are followed further.
@@ -12,18 +12,24 @@ Not contained are the blade, tables and figures, and what Snakemake itself does.
 """
 
 import os
+import statistics
 import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from bladerub import plugins
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
+from bladerub.contact.spec import RunSpec
 from bladerub.extras.benchmark.record import cores as cores_here
 from bladerub.extras.study_runs import StudyRun, study_runs
 from bladerub.io.provenance import provenance
@@ -37,7 +43,7 @@ from bladerub.study.plan import PlannedRun, longer_run, planned_run
 from bladerub.study.solver import each_done
 from bladerub.study.store import write_run
 
-DRAWN = 128
+DRAWN, DRAWN_WITH_STRESS = 128, 24
 _JOB_OF_RUNS = ("study.job", "study.maps")
 """What the job of the runs and the map of a coating imports."""
 
@@ -118,3 +124,34 @@ def _start(module: str) -> float:
     subprocess.run([sys.executable, "-c", f"import bladerub.{module}"], check=True)
     after = os.times()
     return after.children_user + after.children_system - before.children_user - before.children_system
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # as in the jobs of the study
+def cost_of_stress(mesh: str | Path, blade: ReducedBlade, config: Config, rounds: int) -> float:
+    """Return the CPU time of `DRAWN_WITH_STRESS` runs of the study with their stress, over that without.
+
+    Each is set up, integrated and stored as the study does it. The median of so many `rounds` counts, of
+    which one without effect comes first. `mesh` is the ``mesh.h5`` of the blade. Raises `BadInput` where it
+    is of matrices alone.
+    """
+    from bladerub.extras.stress.run import BladeStress  # other measurements do without
+
+    stress, last = BladeStress(mesh, blade), config.analysis.spectrum_revolutions
+    runs = study_runs(config)
+    drawn, origin = runs[:: max(1, len(runs) // DRAWN_WITH_STRESS)], provenance(config.plain())
+
+    def stressed(blade: ReducedBlade, spec: RunSpec, progress: None) -> RunResult:
+        return stress.of_run(spec, last)[0]
+
+    def seconds(solve: Callable[..., RunResult], folder: Path) -> float:
+        start = time.thread_time()
+        for number, run in enumerate(drawn):
+            planned = planned_run(config, run_spec(config, run.case, run.f_omega), f"{number}.h5", False)
+            stored = compute(run.case, planned, blade, "", config.analysis, solve=solve)
+            write_run(folder / planned.file, stored, origin)
+        return time.thread_time() - start
+
+    with tempfile.TemporaryDirectory() as folder:
+        cpu_time = partial(seconds, folder=Path(folder))
+        ratios = [cpu_time(stressed) / cpu_time(simulate) for _ in range(rounds + 1)]
+    return statistics.median(ratios[1:])
