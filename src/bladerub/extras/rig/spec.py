@@ -3,13 +3,17 @@
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
 
 from bladerub.config.errors import ConfigError
 from bladerub.config.problems import problems
 from bladerub.contact.laws import element_law
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras import plans
-from bladerub.extras.rig.settings import RigPlan, RigSettings
+from bladerub.extras.law_settings import Law
+from bladerub.settings.fields import Form, Metre, Name, Omitted, Pascal, Radian, Section, Unit
 
 PLAN = Path("config/rigs.yaml")
 """The rigs of a study, in its folder."""
@@ -19,6 +23,38 @@ MEASURABLE = (
     *("worn_depth", "pass_wear", "pass_energy", "temperature_rise"),
 )
 """What a rig may have measured: columns of `bladerub.extras.rig.passes.simulate_passes`."""
+
+
+class RigSettings(Section):
+    """A rig of a plan: the parameters of `Rig`, whose measured values are in the units of their columns."""
+
+    E: Pascal = Field(ge=1000, le=1e13)
+    K: Pascal = Field(ge=0, le=1e13)
+    yield_stress: Pascal = Field(ge=0, le=1e12)
+    thickness: Metre = Field(ge=1e-6, le=1)
+    tip_width: Metre = Field(ge=1e-6, le=1)
+    tip_length: Metre = Field(ge=1e-6, le=1)
+    track: Metre = Field(ge=0.001, le=1000)
+    speed: Annotated[float, Unit("m/s")] = Field(ge=1e-6, le=10000)
+    incursion: Metre = Field(ge=1e-9, le=1)
+    theta: Radian = Field(ge=0, le=1.5)
+    edge_drop: Metre = Field(ge=0, le=1)
+    coated: Metre = Field(ge=0, le=1000)
+    passes: int = Field(ge=1, le=100000)
+    law: Omitted[Law] = None
+    source: Annotated[Omitted[str], Form("a text of at most 300 letters")] = Field(
+        None, pattern=r"^.{0,300}$"
+    )
+    assumed: list[
+        Annotated[str, Field(pattern=r"^[A-Za-z_]{1,40}$"), Form("the name of a parameter of a rig")]
+    ]
+    measured: Omitted[dict[str, Annotated[float, Unit("as in the table"), Field(ge=-1e15, le=1e15)]]] = None
+
+
+class RigPlan(Section):
+    """Rub rigs by name, a rigid tip on a coated disk (docs/laws.md)."""
+
+    rigs: dict[Name, RigSettings] = Field(min_length=1, max_length=100)
 
 
 @dataclass(frozen=True)
