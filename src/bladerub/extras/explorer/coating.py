@@ -6,16 +6,19 @@ What the numbers of a picture lose is below what it shows. Numbers that a reader
 import base64
 import gzip
 import json
+import shlex
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.explorer import figures
 from bladerub.io.plain import plain
 from bladerub.plots.spectrum import ORDERS
+from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap
+from bladerub.study.summary import displacement_peak, spectral_peak
+from bladerub.study.variants import of_case
 
 MOST_ANGLES = 500
 """Wear is averaged to at most so many arcs of the circumference."""
@@ -25,6 +28,16 @@ AMPLITUDE_FLOOR = 1e-8
 """Smallest spectral amplitude that the page resolves, m; far below the colour scale of the figures."""
 _SMALLEST = 1e-15
 """Amplitude of a blade at rest in the pictures of growth, m: a logarithmic axis has no zero."""
+
+VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]
+"""Columns of ``divergence.csv`` that the page shows, with the status of the run they rest on."""
+
+BANDS = [
+    *("draws", "divergent_draws", "growth_rate_low", "growth_rate_high", "max_wear_low", "max_wear_high"),
+    *("lobes_lowest", "lobes_highest"),
+]
+"""Columns of ``run_bands.csv``: NaN for runs without an ensemble."""
+
 _ESCAPES = str.maketrans({"<": "\\u003c", ">": "\\u003e", "&": "\\u0026"})
 
 
@@ -56,12 +69,12 @@ def parts(
     spectrum_revolutions: int,
     max_frequency: float,
 ) -> dict[str, str]:
-    """Pack one coating, each part as `packed`; parameters as of `figures.of_runs` and `kept_orders`.
+    """Pack one coating, each part as `packed`; parameters as of `of_runs` and `kept_orders`.
 
     ``wear``: bytes, n speeds × m arcs, differences along each row of `linear_steps`. ``spectrum``: bytes,
     `logarithmic_steps`, the kept orders of each speed one after the other. ``growth``: the same in two bytes
     (little-endian), for each speed the revolutions of the study's run and of the longer run. ``figures``:
-    JSON, `figures.of_runs` and the scales, in mm.
+    JSON, `of_runs` and the scales, in mm.
     """
     wear, deepest = linear_steps(arc_means(coating.wear, arcs(coating.angle.size)))
     counts = kept_orders(coating.f_omega, coating.spectrum_order, max_frequency)
@@ -70,10 +83,10 @@ def parts(
     growth = np.hstack([coating.revolution_amplitude, coating.confirmation_amplitude])
     growth_range = log_range(growth, _SMALLEST)
     numbers = {
-        "runs": figures.of_runs(coating, divergence, runs, spectrum_revolutions),
-        "deepest": figures.mm(deepest),
-        "spectrum_range": figures.mm(spectrum_range),
-        "growth_range": figures.mm(growth_range),
+        "runs": of_runs(coating, divergence, runs, spectrum_revolutions),
+        "deepest": mm(deepest),
+        "spectrum_range": mm(spectrum_range),
+        "growth_range": mm(growth_range),
         "revolutions": coating.revolution_amplitude.shape[1],
         "confirmation_revolutions": coating.confirmation_amplitude.shape[1],
     }
@@ -85,6 +98,62 @@ def parts(
         "growth": packed(growth_steps.tobytes()),
         "figures": packed(json_text(numbers).encode()),
     }
+
+
+def mm(metres: np.ndarray) -> np.ndarray:
+    """Convert lengths; the page itself converts nothing."""
+    return 1e3 * np.asarray(metres, dtype=float)
+
+
+def of_runs(
+    coating: CoatingMap, divergence: pd.DataFrame, runs: list[ManifestRow], spectrum_revolutions: int
+) -> dict[str, list]:
+    """Figures of every run of one coating, each a list over its speeds, from its map, table and manifest.
+
+    `VERDICTS`, `BANDS` (NaN without an ensemble) and ``verdict_status`` are of the run that the verdict rests
+    on, all others of the run of the study: lengths in mm, the peak of the last `spectrum_revolutions`,
+    ``order`` and ``order_amplitude`` of the largest spectral amplitude, NaN without a spectrum. Raises
+    `ValueError` if table, manifest and map are not of the same speeds.
+    """
+    verdicts = of_case(divergence, coating.case).sort_values("f_omega")
+    sorted_runs = sorted(runs, key=lambda run: run.f_omega)
+    for source, speeds in (
+        ("divergence.csv", verdicts["f_omega"].to_numpy()),
+        ("manifest", np.array([run.f_omega for run in sorted_runs])),
+    ):
+        if not np.array_equal(speeds, coating.f_omega):
+            raise ValueError(f"{source}: not the speeds of the map of {coating.case.name}; make it again")
+    peak = [displacement_peak(row, spectrum_revolutions) for row in coating.revolution_peak]
+    bands = verdicts.reindex(columns=BANDS)
+    bands[["max_wear_low", "max_wear_high"]] *= 1e3
+    strongest = [spectral_peak(coating.spectrum_order, row) for row in coating.spectrum_amplitude]
+    return {
+        **verdicts[VERDICTS].to_dict("list"),
+        **bands.to_dict("list"),
+        "verdict_status": verdicts["status"].tolist(),
+        "status": coating.status.tolist(),
+        "run_key": [run.run_key for run in sorted_runs],
+        "lobes": coating.lobes.tolist(),
+        "max_wear": mm(coating.max_wear).tolist(),
+        "peak": mm(peak).tolist(),
+        "order": [order for order, _ in strongest],
+        "order_amplitude": mm([amplitude for _, amplitude in strongest]).tolist(),
+    }
+
+
+def command(case: CoatingCase, configs: list[str]) -> str:
+    """Write the command that repeats a run of `case`, up to ``--f`` and the speed, which the page adds.
+
+    `configs` are the files that were laid over config/config.yaml.
+    """
+    if case.is_rigid:
+        coating = f"--coating rigid --friction {case.friction:.12g}"
+    else:
+        angle = f"--theta {case.theta:.12g}" if case.law == "theta" else f"--friction {case.friction:.12g}"
+        coating = f"--E {case.E:.12g} --K {case.K:.12g} {angle}"
+    overlays = f" --config {' '.join(map(shlex.quote, configs))}" if configs else ""
+    options = "".join(f" --{key.replace('_', '-')} {value:.12g}" for key, value in case.own.items())
+    return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}{options}"
 
 
 def linear_steps(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

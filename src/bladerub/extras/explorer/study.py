@@ -8,8 +8,7 @@ import pandas as pd
 from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
-from bladerub.extras.explorer import figures
-from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, LAST_ORDER, arcs, kept_orders
+from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, LAST_ORDER, arcs, command, kept_orders, mm
 from bladerub.io.provenance import software
 from bladerub.plots import bins, spectrum, style, titles
 from bladerub.study.grid import CoatingCase
@@ -47,14 +46,14 @@ def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[
         **asdict(case),
         "rigid": case.is_rigid,
         "friction": case.friction,
-        "command": figures.command(case, configs),
+        "command": command(case, configs),
         "peaks": [
-            {"order": row.order, "f": row.f_peak, "Y": figures.mm(row.amplitude)}
+            {"order": row.order, "f": row.f_peak, "Y": mm(row.amplitude)}
             | {
                 "reason": row.reason,
                 "draws": row.draws,
-                "low": figures.mm(row.amplitude_low),
-                "high": figures.mm(row.amplitude_high),
+                "low": mm(row.amplitude_low),
+                "high": mm(row.amplitude_high),
             }
             for row in of_case(peaks, case).reindex(columns=columns).itertuples()
         ],
@@ -69,9 +68,9 @@ def about(settings: dict[str, Any]) -> dict[str, Any]:
     """
     return {
         **settings,
-        "amplitude_range": figures.mm(settings["amplitude_range"]),
+        "amplitude_range": mm(settings["amplitude_range"]),
         "made_by": software(),
-        "amplitude_floor": figures.mm(AMPLITUDE_FLOOR),
+        "amplitude_floor": mm(AMPLITUDE_FLOOR),
         "orders": list(spectrum.ORDERS),
         "last_order": LAST_ORDER,
         "look": look(),

@@ -11,8 +11,7 @@ import pandas as pd
 import pytest
 from study_fixtures import changed
 
-from bladerub.extras.explorer import figures
-from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, parts
+from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, command, of_runs, parts
 from bladerub.extras.explorer.page import build
 from bladerub.study import divergence
 from bladerub.study.grid import CoatingCase
@@ -48,7 +47,7 @@ def runs(coating):
 
 
 def test_figures_are_those_of_the_tables_and_come_back_from_the_page(coating, verdicts, runs):
-    found = figures.of_runs(coating, verdicts, runs[::-1], spectrum_revolutions=10)
+    found = of_runs(coating, verdicts, runs[::-1], spectrum_revolutions=10)
     assert found["growth_per_revolution"] == verdicts["growth_per_revolution"].tolist()
     assert found["divergent"] == verdicts["divergent"].tolist() == [False, True, True]
     assert found["revolutions"] == [20, 30, 6]
@@ -80,9 +79,9 @@ def test_figures_are_those_of_the_tables_and_come_back_from_the_page(coating, ve
 
 
 def test_the_command_that_repeats_a_run():
-    rigid = figures.command(CoatingCase.rigid("2nd", 0.15), [])
+    rigid = command(CoatingCase.rigid("2nd", 0.15), [])
     assert rigid == "bladerub run --casing 2nd --coating rigid --friction 0.15"
-    hostile = figures.command(CoatingCase("2; rm", 2.0, 1.0, 0.0), ["my study.yaml"])
+    hostile = command(CoatingCase("2; rm", 2.0, 1.0, 0.0), ["my study.yaml"])
     assert hostile == "bladerub run --config 'my study.yaml' --casing '2; rm' --E 2 --K 1 --theta 0"
 
 
