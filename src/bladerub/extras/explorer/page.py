@@ -2,17 +2,26 @@
 
 import base64
 import hashlib
+from dataclasses import asdict
 from importlib.resources import files
 from pathlib import Path
 from string import Template
 from typing import Any
 
+import numpy as np
 import pandas as pd
+from matplotlib import colormaps
+from matplotlib.colors import to_hex
 
-from bladerub.extras.explorer import coating, study
+from bladerub.extras.explorer import coating
+from bladerub.extras.explorer.coating import mm
 from bladerub.io.optional import package
+from bladerub.io.provenance import software
+from bladerub.plots import bins, spectrum, style, titles
+from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import read_manifest
-from bladerub.study.maps import read_map
+from bladerub.study.maps import CoatingMap, read_map
+from bladerub.study.variants import of_case
 
 _PROGRAM = ["data.js", "choice.js", "pictures.js", "words.js", "main.js"]
 """In the order in which they use each other."""
@@ -29,32 +38,101 @@ def build(
     """Make the page, as HTML; equal data give equal text.
 
     `map_paths` and `manifest_paths` have each coating in the same order, `peaks` and `divergence` are
-    ``peaks.csv`` and ``divergence.csv``, `settings` as of `bladerub.extras.explorer.study.about`, `configs`
-    the files that were laid over config/config.yaml. Raises `OSError` if a map or manifest cannot be read,
-    and `ValueError` if the coatings were not computed at the same speeds, or the tables are of other ones.
+    ``peaks.csv`` and ``divergence.csv``, `configs` the files that were laid over config/config.yaml.
+    `settings` from the config: ``max_frequency`` (normalised), ``amplitude_range`` (m),
+    ``growth_revolutions``, ``spectrum_revolutions`` and ``modulus_unit`` (Pa); ``doubts`` of the blade.
+
+    Raises `OSError` if a map or manifest cannot be read, and `ValueError` if the coatings were not computed
+    at the same speeds, or the tables are of other ones.
     """
     coatings, data, scales = [], [], None
     revolutions, max_frequency = settings["spectrum_revolutions"], settings["max_frequency"]
     for index, (map_path, manifest_path) in enumerate(zip(map_paths, manifest_paths, strict=True)):
         coating_map, runs = read_map(map_path), read_manifest(manifest_path)
-        coating_scales = study.scales(coating_map, max_frequency)
+        coating_scales = _scales(coating_map, max_frequency)
         scales = scales or coating_scales
         if coating.json_text(coating_scales) != coating.json_text(scales):
             raise ValueError(
                 f"{map_path}: not of the same blade, speeds and angles as {map_paths[0]}; make the maps again"
             )
-        coatings.append(study.coating(coating_map.case, peaks, configs))
+        coatings.append(_coating(coating_map.case, peaks, configs))
         for name, text in coating.parts(coating_map, divergence, runs, revolutions, max_frequency).items():
             data.append(f'<script type="application/gzip" id="{name}-{index}">{text}</script>')
     library, program = package("plotly.offline", "study").get_plotlyjs(), "\n".join(map(_text, _PROGRAM))
     return Template(_text("index.html")).substitute(
         policy=_policy(library, program),
         style=_text("style.css"),
-        study=coating.json_text({**study.about(settings), **scales, "coatings": coatings}),
+        study=coating.json_text({**_about(settings), **scales, "coatings": coatings}),
         data="\n".join(data),
         library=library,
         program=program,
     )
+
+
+def _scales(coating_map: CoatingMap, max_frequency: float) -> dict[str, Any]:
+    """Axes that all coatings share, from any of them.
+
+    ``speed_edges`` and ``speed_of_bin`` are the bins of the maps as of `bladerub.plots.bins.with_gaps`, with
+    NaN in the gaps; ``angle_edges`` are in degrees; ``kept`` is how many entries of ``order`` each speed has.
+    """
+    speed_edges, speed_of_bin = bins.with_gaps(coating_map.f_omega, np.arange(coating_map.f_omega.size))
+    return {
+        "f_omega": coating_map.f_omega,
+        "C1": coating_map.C1,
+        "speed_edges": speed_edges,
+        "speed_of_bin": speed_of_bin,
+        "angle_edges": np.degrees(bins.edges(coating_map.angle)[coating.arcs(coating_map.angle.size)]),
+        "order": coating_map.spectrum_order,
+        "kept": coating.kept_orders(coating_map.f_omega, coating_map.spectrum_order, max_frequency),
+    }
+
+
+def _coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[str, Any]:
+    """Name, properties and resonant peaks (``peaks.csv``, perhaps with bands; Y in mm) of one coating.
+
+    What is missing is NaN: a peak, with its ``reason``, and the band of one without an ensemble.
+    """
+    columns = list(dict.fromkeys([*peaks, "draws", "amplitude_low", "amplitude_high", "reason"]))
+    return {
+        "name": case.name,
+        "title": titles.coating(case),
+        **asdict(case),
+        "rigid": case.is_rigid,
+        "friction": case.friction,
+        "command": coating.command(case, configs),
+        "peaks": [
+            {"order": row.order, "f": row.f_peak, "Y": mm(row.amplitude)}
+            | {
+                "reason": row.reason,
+                "draws": row.draws,
+                "low": mm(row.amplitude_low),
+                "high": mm(row.amplitude_high),
+            }
+            for row in of_case(peaks, case).reindex(columns=columns).itertuples()
+        ],
+    }
+
+
+def _about(settings: dict[str, Any]) -> dict[str, Any]:
+    """Collect what the page says and draws besides the data."""
+    return {
+        **settings,
+        "amplitude_range": mm(settings["amplitude_range"]),
+        "made_by": software(),
+        "amplitude_floor": mm(coating.AMPLITUDE_FLOOR),
+        "orders": list(spectrum.ORDERS),
+        "last_order": coating.LAST_ORDER,
+        "look": _look(),
+    }
+
+
+def _look() -> dict[str, Any]:
+    """Colours and lines of the figures of the paper, for the page to draw in the same."""
+    maps = {"wear": style.WEAR_MAP, "amplitude": style.AMPLITUDE_MAP, "height": colormaps[style.HEIGHT_MAP]}
+    lines = {"A": style.FIRST["color"], "B": style.SECOND["color"], "dark": style.DARK, "blue": style.BLUE}
+    lines |= {"red": style.RED, "orange": style.ORANGE, "missing": style.MISSING}
+    steps = np.linspace(0, 1, 64)
+    return {name: [to_hex(colour) for colour in colours(steps)] for name, colours in maps.items()} | lines
 
 
 def _text(name: str) -> str:
