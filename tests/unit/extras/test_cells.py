@@ -61,6 +61,6 @@ def test_what_cannot_be_meant_is_refused_with_its_line(tmp_path):
         path.write_text(text, encoding="utf-8")
         with pytest.raises(ValueError, match=said):
             cells.read(path).numbers("gap")
-        path.write_bytes("# gemessen für Öl\nangle;gap\n0;1\n".encode("latin-1"))
-        with pytest.raises(ValueError, match="UTF-8"):
-            cells.read(path)
+    path.write_bytes("# gemessen für Öl\nangle;gap\n0;1\n".encode("latin-1"))
+    with pytest.raises(ValueError, match="UTF-8"):
+        cells.read(path)

@@ -63,7 +63,7 @@ def test_a_run_without_a_checksum_is_computed_again_and_archived(compute, simula
     assert archived.read_bytes() == older
 
 
-def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated, monkeypatch):
+def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated):
     def stop_after_two(done):
         if done.number == 2:
             raise InterruptedError

@@ -72,7 +72,7 @@ def test_the_blade_comes_back_from_its_matrices(config, discrete, tmp_path):
     assert theirs.static_displacement.shape == (0, len(ours.mesh.mesh.points), 3)
 
 
-def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
+def test_rows_of_clamped_nodes_other_axes_and_units(discrete, tmp_path):
     """All rows, x along the blade, z upstream, in mm, t and N/mm, as other programs write them."""
     turn = np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]], dtype=float)  # rows: axes of the blade in the file
     mesh = discrete.layout.mesh
