@@ -63,34 +63,29 @@ def read_mesh(path: str | Path) -> tuple[np.ndarray, ...]:
     return mesh["points"], mesh["cells"], *nodes
 
 
-def _draw_alone(
-    axes: Axes,
+@on_axes
+def blade_mesh(
     points: np.ndarray,
     elements: np.ndarray,
     interface: np.ndarray,
     root: np.ndarray,
     tip: np.ndarray,
-) -> None:
-    _draw_whole(axes, 1e3 * points, boundary_faces(elements), interface, root)
-    axes.legend(loc="best")
-
-
-@on_axes(_draw_alone)
-def blade_mesh(
-    points: np.ndarray, elements: np.ndarray, interface: np.ndarray, root: np.ndarray, tip: np.ndarray
+    ax: Axes | None = None,
 ) -> Figure:
     """Draw Fig. 1: the mesh with root and interface nodes (a), and the tip seen along the radius (b).
 
     `points` (n, 3) are the nodes, m: x along the axis, y tangential, z along the stacking line. `elements`
     are their nodes in the order of CalculiX's C3D20 or C3D10; without them the nodes are drawn. `interface`
     (8,) are the interface nodes from leading to trailing edge, `tip` those of the tip face, `root` the
-    clamped ones: none where another program has left them out. Axes that are given
-    hold (a).
+    clamped ones: none where another program has left them out. Axes that are given hold (a).
     """
+    millimetres, faces = 1e3 * points, boundary_faces(elements)
+    if ax is not None:
+        _draw_whole(ax, millimetres, faces, interface, root)
+        ax.legend(loc="best")
+        return ax.figure
     figure = new_figure(PAGE, 0.86 * PAGE)
     overview, of_tip = figure.subplots(1, 2, width_ratios=[1, 1.05])
-    millimetres = 1e3 * points
-    faces = boundary_faces(elements)
     _draw_whole(overview, millimetres, faces, interface, root)
     counted = f"{len(elements)} {_KINDS[elements.shape[1]]}, " if len(elements) else ""
     overview.set_title(f"(a) {counted}{len(points)} nodes")

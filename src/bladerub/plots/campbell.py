@@ -1,7 +1,5 @@
 """Campbell diagram: eigenfrequencies of the finite element model and of the reduced model over the speed."""
 
-from collections.abc import Mapping
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,23 +12,14 @@ _FREQUENCY = r"eigenfrequency $f\,/\,f_1(0)$"
 _NUMBER = 0.045  # height of a number and what is above it, over that of the axes
 
 
-def _draw_first(
-    axes: Axes,
+@on_axes
+def campbell(
     f_omega: np.ndarray,
     f_fe: np.ndarray,
     f_rom: np.ndarray,
     orders: range,
     engine: Engine | None = None,
-) -> None:
-    f_rom = np.asarray(f_rom)
-    _draw(axes, f_omega, f_fe, f_rom, {k: k for k in orders}, 1.5 * float(np.nanmax(f_rom[:, 0])), engine)
-    axes.set_ylabel(_FREQUENCY)
-    axes.legend(loc="lower right")
-
-
-@on_axes(_draw_first)
-def campbell(
-    f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray, orders: range, engine: Engine | None = None
+    ax: Axes | None = None,
 ) -> Figure:
     """Draw Fig. 2: all modes (a) and the first of them, which the engine `orders` cross (b).
 
@@ -38,14 +27,19 @@ def campbell(
     ascending, NaN where unknown, at the speeds `f_omega` (n,); all normalised. With an `engine` there are its
     speeds and frequencies besides, and its nominal speed. Axes that are given hold (b).
     """
-    f_rom = np.asarray(f_rom)
+    modes = np.asarray(f_omega), np.asarray(f_fe), np.asarray(f_rom)
+    top_of_first, top = 1.5 * float(np.nanmax(modes[2][:, 0])), 1.04 * float(np.nanmax(modes[1:]))
+    if ax is not None:
+        _draw(ax, *modes, orders, top_of_first, engine)
+        ax.set_ylabel(_FREQUENCY)
+        ax.legend(loc="lower right")
+        return ax.figure
     figure = new_figure(PAGE, 0.62 * PAGE)
     all_modes, first = figure.subplots(1, 2)
-    highest = 1.04 * float(np.nanmax([f_fe, f_rom]))
-    _draw(all_modes, f_omega, f_fe, f_rom, {k: k for k in orders[-1:]}, highest, engine)
+    _draw(all_modes, *modes, orders[-1:], top, engine)
     all_modes.set_ylabel(_FREQUENCY)
-    all_modes.set_title(f"(a) first {f_rom.shape[1]} modes", pad=16)
-    _draw(first, f_omega, f_fe, f_rom, {k: k for k in orders}, 1.5 * float(np.nanmax(f_rom[:, 0])), engine)
+    all_modes.set_title(f"(a) first {modes[2].shape[1]} modes", pad=16)
+    _draw(first, *modes, orders, top_of_first, engine)
     first.set_title("(b) first mode, $C_1$", pad=16)
     figure.legend(*all_modes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
@@ -56,27 +50,22 @@ def _draw(
     f_omega: np.ndarray,
     f_fe: np.ndarray,
     f_rom: np.ndarray,
-    slopes: Mapping[int, float],
+    orders: range,
     highest: float,
     engine: Engine | None,
 ) -> None:
-    f_omega, f_fe = np.asarray(f_omega), np.asarray(f_fe)
     fastest = float(f_omega.max())
-    engine_orders.draw(axes, slopes, fastest, highest)
-    _modes(axes, f_omega, f_fe, f_rom)
+    engine_orders.draw(axes, {k: k for k in orders}, fastest, highest)
+    for mode in range(f_rom.shape[1]):
+        rom, fe = ("reduced model", "finite elements") if mode == 0 else ("_rom", "_fe")
+        axes.plot(f_omega, f_rom[:, mode], color=ORANGE, linewidth=2.6, label=rom)
+        axes.plot(f_omega, f_fe[:, mode], color=DARK, linestyle=(0, (4, 2)), linewidth=1.0, label=fe)
     axes.set(xlim=(0, fastest), ylim=(0, highest), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
     if engine:
         engine.add_speeds(axes, "x")
         engine.add_frequencies(axes, "y")
         engine.draw_nominal_speed(axes.axvline)
     _number(axes, f_rom[0] / highest)
-
-
-def _modes(axes: Axes, f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray) -> None:
-    for mode in range(f_rom.shape[1]):
-        rom, fe = ("reduced model", "finite elements") if mode == 0 else ("_rom", "_fe")
-        axes.plot(f_omega, f_rom[:, mode], color=ORANGE, linewidth=2.6, label=rom)
-        axes.plot(f_omega, f_fe[:, mode], color=DARK, linestyle=(0, (4, 2)), linewidth=1.0, label=fe)
 
 
 def _number(axes: Axes, height: np.ndarray) -> None:

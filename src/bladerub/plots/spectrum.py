@@ -42,31 +42,26 @@ class PeakSection:
     peak: Peak
 
 
-def _draw_alone(
-    axes: Axes,
+@on_axes
+def spectrum_map(
     coating: CoatingMap,
     amplitude_range: tuple[float, float],
     f_max: float,
     scales: Scales = UNKNOWN,
-) -> None:
-    _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
-    axes.legend(loc="lower right")
-
-
-@on_axes(_draw_alone)
-def spectrum_map(
-    coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float, scales: Scales = UNKNOWN
+    ax: Axes | None = None,
 ) -> Figure:
     """Draw Figs. 7, 8, 9, 15 and 16: f horizontally, f_Ω vertically, amplitude in colour.
 
     `amplitude_range` are the ends of the logarithmic colour scale, m, `f_max` is that of the frequency axis,
     normalised.
     """
-    figure = new_figure(PAGE, 0.62 * PAGE)
-    axes = figure.add_subplot()
+    axes = ax or new_figure(PAGE, 0.62 * PAGE).add_subplot()
     _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
-    _add_legend(axes, scales)
-    return figure
+    if ax is None:
+        _add_legend(axes, scales)
+    else:
+        axes.legend(loc="lower right")
+    return axes.figure
 
 
 @styled

@@ -103,41 +103,33 @@ styled = matplotlib.rc_context(_RC)
 """Decorate a function that draws in the style, and leaves matplotlib's settings as they were."""
 
 
-def on_axes(draw_into: Callable[..., Any]) -> Callable[[Callable[..., Figure]], Callable[..., Any]]:
-    """Let a function that draws a figure call `draw_into` instead where it is given axes, as ``ax``.
+def on_axes(draw: Callable[..., Figure]) -> Callable[..., Any]:
+    """Let a function return the axes ``ax`` that it is given to draw into, and else its figure.
 
-    The figure or the axes are returned. With a ``path`` the figure is written there as well, in the format of
-    its ending.
+    With a ``path`` the figure is written there as well, in the format of its ending.
     """
 
-    def decorate(draw: Callable[..., Figure]) -> Callable[..., Any]:
-        @styled
-        @wraps(draw)
-        def drawn(*args, path: str | Path | None = None, ax: Axes | None = None, **kwargs) -> Any:
-            if ax is None:
-                figure = draw(*args, **kwargs)
-            else:
-                figure = ax.figure
-                draw_into(ax, *args, **kwargs)
-            if path is not None:
-                figure.savefig(path, dpi=_FILE_DPI)
-            return figure if ax is None else ax
+    @styled
+    @wraps(draw)
+    def drawn(*args, path: str | Path | None = None, ax: Axes | None = None, **kwargs) -> Any:
+        figure = draw(*args, ax=ax, **kwargs)
+        if path is not None:
+            figure.savefig(path, dpi=_FILE_DPI)
+        return ax or figure
 
-        return drawn
-
-    return decorate
+    return drawn
 
 
 def alone(width: float, height: float, **subplot: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Let a function that draws into axes draw a figure of this size without them; rest as `on_axes`."""
 
     def decorate(draw_into: Callable[..., Any]) -> Callable[..., Any]:
-        @on_axes(draw_into)
+        @on_axes
         @wraps(draw_into)
-        def draw(*args, **kwargs) -> Figure:
-            figure = new_figure(width, height)
-            draw_into(figure.add_subplot(**subplot), *args, **kwargs)
-            return figure
+        def draw(*args, ax: Axes | None, **kwargs) -> Figure:
+            axes = ax or new_figure(width, height).add_subplot(**subplot)
+            draw_into(axes, *args, **kwargs)
+            return axes.figure
 
         return draw
 

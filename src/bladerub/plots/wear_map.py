@@ -36,18 +36,17 @@ def _name_speeds(axes: Axes, scales: Scales) -> None:
         scales.engine.add_speeds(axes, "x")
 
 
-def _draw_alone(axes: Axes, coating: CoatingMap, scales: Scales = UNKNOWN) -> None:
-    _draw_wear(axes, coating, scales)
-    _name_speeds(axes, scales)
-
-
-@on_axes(_draw_alone)
-def wear_map(coating: CoatingMap, scales: Scales = UNKNOWN) -> Figure:
+@on_axes
+def wear_map(coating: CoatingMap, scales: Scales = UNKNOWN, ax: Axes | None = None) -> Figure:
     """Draw Fig. 6: worn depth over speed and casing angle, below it the number of worn lobes.
 
     Runs that exceeded the displacement limit are crossed below: their wear is that of their early end. Those
     with a displacement beyond small ones are ringed. Axes that are given hold the upper diagram.
     """
+    if ax is not None:
+        _draw_wear(ax, coating, scales)
+        _name_speeds(ax, scales)
+        return ax.figure
     figure = new_figure(PAGE, 0.68 * PAGE)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
     _draw_wear(upper, coating, scales)
