@@ -30,16 +30,11 @@ def study_folder() -> Path:
     """
     working_folder = Path.cwd()
     for folder in (working_folder, *working_folder.parents):
-        if _is_study(folder):
+        snakefile = folder / "Snakefile"
+        is_whole = (folder / CONFIG).is_file() and snakefile.is_file()
+        if is_whole and "bladerub" in snakefile.read_text(encoding="utf-8", errors="replace"):
             return folder
     return working_folder if ROOT.is_relative_to(PACKAGE) else ROOT
-
-
-def _is_study(folder: Path) -> bool:
-    snakefile = folder / "Snakefile"
-    if not (folder / CONFIG).is_file() or not snakefile.is_file():
-        return False
-    return "bladerub" in snakefile.read_text(encoding="utf-8", errors="replace")
 
 
 def base_config() -> Path:
@@ -60,14 +55,10 @@ def cache_folder() -> Path:
     home, of this user alone among the temporary files (``TMPDIR``). Raises an `OSError` if others can write
     that one.
     """
-    if folder := os.environ.get("BLADERUB_CACHE"):
-        return Path(folder)
+    if path := os.environ.get("BLADERUB_CACHE"):
+        return Path(path)
     if has_home() or "XDG_CACHE_HOME" in os.environ:
         return platformdirs.user_cache_path("bladerub")
-    return _temporary_cache()
-
-
-def _temporary_cache() -> Path:
     folder = Path(tempfile.gettempdir(), f"bladerub-{os.getuid()}")
     folder.mkdir(mode=0o700, exist_ok=True)
     about = folder.lstat()

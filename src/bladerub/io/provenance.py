@@ -22,17 +22,14 @@ PREFIX = "provenance_"  # of the name of each of these attributes, and of no oth
 UNKNOWN = "unknown"
 
 _PACKAGES = ("numpy", "scipy", "numba", "h5py", "scikit-fem", "rslab", "pandas", "openturns")
-_NOT_THE_STUDY = {"results"}  # where files lie says nothing of what is in them
 _SECONDS = 10
 
 
 def provenance(config: Mapping[str, Any]) -> dict[str, str]:
     """Describe what makes a file of the study `config` now, as attributes for it.
 
-    These are ``provenance_software`` (name and version), ``provenance_git_commit`` of the repository that the
-    package is installed from, ``provenance_git_state`` (``clean``, or ``modified``: a file in it differs from
-    the commit, or one of its sources is not in it), ``provenance_config_sha256`` (see `config_digest`) and
-    ``provenance_packages``, as pip writes them. What git does not know is ``unknown``.
+    The commit is that of the repository that the package is installed from, which is ``modified`` if a file
+    in it differs from the commit, or one of its sources is not in it. What git does not know is ``unknown``.
     """
     commit, state = git_state()
     return {
@@ -52,16 +49,9 @@ def software() -> str:
 
 def config_digest(config: Mapping[str, Any]) -> str:
     """Digest (SHA-256) what the config says, not how it is written, nor where the results go."""
-    study = {key: value for key, value in config.items() if key not in _NOT_THE_STUDY}
-    return hashlib.sha256(json.dumps(_as_floats(study), sort_keys=True).encode()).hexdigest()
-
-
-def _as_floats(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(key): _as_floats(entry) for key, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_as_floats(entry) for entry in value]
-    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+    study = json.dumps({key: value for key, value in config.items() if key != "results"})
+    in_floats = json.dumps(json.loads(study, parse_int=float), sort_keys=True)
+    return hashlib.sha256(in_floats.encode()).hexdigest()
 
 
 @cache

@@ -18,7 +18,9 @@ def files_behind(*modules: str) -> list[str]:
     it reads. Modules are named below ``bladerub``, such as ``"study.maps"``. The paths are sorted, and
     those of the repository if it is the working directory.
     """
-    return sorted(_as_input(path).as_posix() for path in _paths_behind(modules))
+    repository = PACKAGE.parents[1]
+    names = ((path, path.relative_to(repository)) for path in _paths_behind(modules))
+    return sorted((name if name.is_file() else path).as_posix() for path, name in names)
 
 
 def digest_behind(*modules: str) -> str:
@@ -35,11 +37,6 @@ def _paths_behind(modules: Iterable[str]) -> set[Path]:
             paths.add(path)
             queue += [name for name in _imports(path) if name.partition(".")[0] in subpackages]
     return paths
-
-
-def _as_input(path: Path) -> Path:
-    in_repository = path.relative_to(PACKAGE.parents[1])
-    return in_repository if in_repository.is_file() else path
 
 
 def _path_of(module: str) -> Path:
@@ -65,14 +62,14 @@ def extras_behind(*sources: str) -> set[str]:
     while new := names - seen:
         seen |= new
         for path in filter(Path.is_file, map(_path_of, new)):
-            names |= {name for name, is_at_top in _named(path) if is_at_top}
+            source = path.read_text(encoding="utf-8")
+            names |= {name for name, is_at_top in _named_in(source) if is_at_top}
     return {name.split(".")[1] for name in names if name.startswith("extras.")}
 
 
 @cache
 def _imports(path: Path) -> tuple[str, ...]:
-    """Modules of this package that the file at `path` imports, wherever in it."""
-    return tuple(name for name, _ in _named(path) if _path_of(name).is_file())
+    return imports_in(path.read_text(encoding="utf-8"))
 
 
 def imports_in(source: str) -> tuple[str, ...]:
@@ -81,10 +78,6 @@ def imports_in(source: str) -> tuple[str, ...]:
 
 
 @cache
-def _named(path: Path) -> tuple[tuple[str, bool], ...]:
-    return _named_in(path.read_text(encoding="utf-8"))
-
-
 def _named_in(source: str) -> tuple[tuple[str, bool], ...]:
     """Name modules of this package, or objects of them, that a source imports, and whether at its top."""
     names: list[tuple[str, bool]] = []
