@@ -53,7 +53,9 @@ class Analysis(Section):
     divergence: Divergence
     lobe_prominence: Annotated[float, Unit("greatest worn depths")] = Field(gt=0, lt=1)
     """How much a worn lobe must stand out to be counted."""
-    histories: Histories
+    histories: Histories = Field(max_length=10000)
+    """Runs whose whole displacement is kept, those of Figs. 17 and 18. Those that the study does not have are
+    left out."""
 
 
 class Figures(Section):

@@ -121,21 +121,5 @@ _Entry = Annotated[
         custom_error_context={"within": "coating"},
     ),
 ]
-Coatings = Annotated[
-    list[_Entry[Coating, CoatingWithFriction, RigidCoating]],
-    Field(
-        min_length=1,
-        max_length=1000,
-        description="Each entry stands for all combinations of its values. With theta the contact force "
-        "has a constant direction, with friction it follows Coulomb's law (studies/friction/README.md). "
-        "An entry with the key `coating` is direct contact with the rigid casing.",
-    ),
-]
-Histories = Annotated[
-    list[_Entry[History, HistoryWithFriction, HistoryOfDirectContact]],
-    Field(
-        max_length=10000,
-        description="Runs whose whole displacement is kept, those of Figs. 17 and 18. Those that the study "
-        "does not have are left out.",
-    ),
-]
+Coatings = list[_Entry[Coating, CoatingWithFriction, RigidCoating]]
+Histories = list[_Entry[History, HistoryWithFriction, HistoryOfDirectContact]]

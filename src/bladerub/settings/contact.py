@@ -8,6 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from bladerub.settings.fields import (
     UNIQUE,
     BladeLengths,
+    Degree,
     Form,
     Limit,
     Modulus,
@@ -19,13 +20,7 @@ from bladerub.settings.fields import (
     Unit,
     disagreement,
 )
-from bladerub.settings.quantities import (
-    DampingRatio,
-    EngineOrders,
-    Interference,
-    LayerThickness,
-    StartAngle,
-)
+from bladerub.settings.quantities import DampingRatio, EngineOrders, Interference, LayerThickness
 
 
 class TipProfile(Section):
@@ -79,7 +74,8 @@ class AnyCasing(Section):
     """What every casing has."""
 
     interference: CasingInterference
-    start_angle: StartAngle
+    start_angle: Degree = Field(ge=-360, le=360)
+    """Casing angle under the blade at the start; where the gap is widest (180/n for n nodal diameters)."""
     peak_orders: Omitted[EngineOrders] = None
     """Instead of analysis.peaks.orders. If it is left out and the casing does not excite those, its peaks are
     at two other orders (docs/how-to/vary_the_study.md)."""

@@ -125,7 +125,6 @@ ASCENDING = AfterValidator(_ascending)
 Number = Annotated[float, Unit("1")]
 Metre = Annotated[float, Unit("m")]
 ScaledMetre = Annotated[float, Unit("m", scaled="length")]
-Second = Annotated[float, Unit("s")]
 Pascal = Annotated[float, Unit("Pa")]
 Degree = Annotated[float, Unit("degrees")]
 Radian = Annotated[float, Unit("rad")]

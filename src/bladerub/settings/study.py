@@ -70,7 +70,10 @@ class Config(BladeSpec):
     """Everything a rule makes is written to this folder, so that it can be deleted as a whole."""
     contact: Contact
     casings: casings({})  # type: ignore[valid-type]
-    coatings: Coatings
+    coatings: Coatings = Field(min_length=1, max_length=1000)
+    """Each entry stands for all combinations of its values. With theta the contact force has a constant
+    direction, with friction it follows Coulomb's law (studies/friction/README.md). An entry with the key
+    `coating` is direct contact with the rigid casing."""
     speeds: Speeds
     solver: Solver
     analysis: Analysis
