@@ -27,13 +27,7 @@ scene = pressed_elements(
     DEPTH,
     REACH,
 )
-table = pd.DataFrame(
-    {
-        "element": scene.element,
-        "position": scene.element * scene.width,
-        "shortening": scene.shortening,
-        "wear": scene.wear,
-        "stress": scene.stress,
-    }
-)
+columns = ("element", "shortening", "wear", "stress")
+table = pd.DataFrame({name: getattr(scene, name) for name in columns})
+table.insert(1, "position", scene.element * scene.width)
 outputs.save(snakemake, tip_profile(scene), data=table)

@@ -25,12 +25,8 @@ coatings = {
 cycles = {title: loading_cycle(coating, STRAINS, STEPS) for title, coating in coatings.items()}
 table = pd.concat(
     pd.DataFrame(
-        {
-            "yield_stress": cycle.coating.yield_stress,
-            "strain": cycle.strain,
-            "stress": cycle.stress,
-            "plastic_strain": cycle.plastic_strain,
-        }
+        {"yield_stress": cycle.coating.yield_stress}
+        | {name: getattr(cycle, name) for name in ("strain", "stress", "plastic_strain")}
     )
     for cycle in cycles.values()
 )

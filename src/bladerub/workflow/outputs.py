@@ -27,11 +27,13 @@ def save(
 
     The figure goes to the outputs ``png`` and ``pdf`` with the parameter ``dpi``, each table to the output of
     its name; that of a figure, ``data``, is written to six digits, others to `digits`, a format of pandas.
-    Names of outputs begin with `prefix` where a job draws several figures. `origin` is as of
+    Columns are described in ``columns.csv`` of the study of the script, of the core or of an extra. Names of
+    outputs begin with `prefix` where a job draws several figures. `origin` is as of
     `bladerub.io.tables.write`, by default of the study at work.
     """
     made_from = origin or provenance(snakemake.config)
-    columns_files = _columns_files(snakemake)
+    of_study = Path(snakemake.scriptdir).parent / tables.COLUMNS_FILE.name
+    columns_files = [*([of_study] if of_study.is_file() else []), *plugins.files(of_study.name)]
     for name, table in frames.items():
         form = "%.6g" if name == "data" else digits
         tables.write(snakemake.output[prefix + name], table, made_from, form, columns_files)
@@ -40,12 +42,6 @@ def save(
 
         files = (snakemake.output[prefix + kind] for kind in ("png", "pdf"))
         style.save(figure, *files, snakemake.params["dpi"])
-
-
-def _columns_files(snakemake: Any) -> list[Path]:
-    """List the ``columns.csv`` of the study whose script this is, if it has one, and those of all extras."""
-    path = Path(snakemake.scriptdir).parent / tables.COLUMNS_FILE.name
-    return [*([path] if path.is_file() else []), *plugins.files(tables.COLUMNS_FILE.name)]
 
 
 def rpm(snakemake: Any, f_omega: "pd.Series") -> "pd.Series":
@@ -61,8 +57,6 @@ def scales(snakemake: Any) -> "Scales":
     """
     from bladerub.plots.scales import Engine, Scales
 
-    parameters = dict(snakemake.params.scales)
-    if "engine" in parameters:
-        f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
-        parameters["engine"] = Engine(f1_hz, **parameters["engine"])
-    return Scales(**parameters)
+    f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
+    engine = Engine(f1_hz, **snakemake.params.scales["engine"])
+    return Scales(**{**snakemake.params.scales, "engine": engine})

@@ -35,23 +35,20 @@ class JobProgress:
             return
         self._computed += 1
         if self._bar.disable and sys.__stderr__.isatty():
-            self._take_turn()
+            self._lock = lock.attempt(self._turn)
+            if self._lock:
+                self._bar = tqdm(
+                    desc=self._name,
+                    bar_format="{desc}: {n_fmt}/{total_fmt} |{bar}|{postfix}",
+                    file=sys.__stderr__,
+                    leave=False,
+                    dynamic_ncols=True,
+                )
         if self._bar.total != event.total or event.number <= self._bar.n:  # the longer runs are counted again
             self._bar.reset(event.total)
         # not tqdm's own estimate from the rate so far: slow speeds cost more, and come first
         self._bar.set_postfix_str(f"about {event.seconds_left:.0f} s left", refresh=False)
         self._bar.update(event.number - self._bar.n)
-
-    def _take_turn(self) -> None:
-        self._lock = lock.attempt(self._turn)
-        if self._lock:
-            self._bar = tqdm(
-                desc=self._name,
-                bar_format="{desc}: {n_fmt}/{total_fmt} |{bar}|{postfix}",
-                file=sys.__stderr__,
-                leave=False,
-                dynamic_ncols=True,
-            )
 
     def finish(self, rows: Sequence[ManifestRow]) -> None:
         """Close the bar; sum up in the log and on standard output what `compute_missing` returned."""
