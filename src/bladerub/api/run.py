@@ -312,19 +312,16 @@ def runs_of(run: Run, prefix: str = "") -> dict[str, StoredRun]:
 
 def run_of(runs: Mapping[str, StoredRun], prefix: str = "") -> Run:
     """Return the run whose parts, as of `runs_of`, are among `runs`."""
-    stored, longer = runs[prefix], runs.get(f"{prefix}{_LONGER}")
-    return Run(stored, Run(longer) if longer else None, _described_stress(stored.attributes))
+    stored, longer, module = runs[prefix], runs.get(f"{prefix}{_LONGER}"), stress_measure()
+    stress = module.RunStress.described(stored.attributes) if module else None
+    return Run(stored, Run(longer) if longer else None, stress)
 
 
 def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> "xr.Dataset":
     """Return variables with their units as xarray opens them from a file that holds them."""
     arrays = {
-        name: (
-            variable.dims,
-            np.asarray(variable.data),
-            {"units": variable.units, "long_name": variable.long_name},
-        )
-        for name, variable in variables.items()
+        name: (entry.dims, np.asarray(entry.data), {"units": entry.units, "long_name": entry.long_name})
+        for name, entry in variables.items()
     }
     return package("xarray", "xarray").Dataset(arrays, attrs=dict(attributes))
 
@@ -333,11 +330,6 @@ def stress_measure() -> Any:
     """Return the module that finds the stress of the blade; None where the package is without it."""
     place = plugins.offered("MEASURES").get("stress")
     return plugins.load(place) if place else None
-
-
-def _described_stress(attributes: Mapping[str, Any]) -> Any:
-    module = stress_measure()
-    return module.RunStress.described(attributes) if module else None
 
 
 def _content(run: Run) -> list[Any]:

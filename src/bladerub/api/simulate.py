@@ -95,7 +95,9 @@ def simulate(
     row, solve, analysis = row or row_of(run.config), solver_of(run.config).simulate, run.config.analysis
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
-    stressed = _stress_solver(blade, run) if stress else None
+    if stress and (measure := stress_measure()) is None:  # before any work
+        raise ValueError("stress = True: this package is without what finds the stress, must be False")
+    stressed = measure.StressSolver(blade.mesh_path, analysis.spectrum_revolutions) if stress else None
     with step("compiling the time loop", progress):
         compile_kernel(run.spec.turns, blade.reduced.n_interface, run.spec.coating.element_law)
     with bar(run.spec.revolutions, "rev", progress) as line:
@@ -120,9 +122,3 @@ def simulate(
     if run_stress:
         stored = replace(stored, attributes=stored.attributes | run_stress.attributes())
     return Run(stored, longer, run_stress, run.config)
-
-
-def _stress_solver(blade: Blade, run: StudyRun) -> Any:
-    if (module := stress_measure()) is None:  # before any work
-        raise ValueError("stress = True: this package is without what finds the stress, must be False")
-    return module.StressSolver(blade.mesh_path, run.config.analysis.spectrum_revolutions)

@@ -1,6 +1,6 @@
 """A study: its config, and the coatings and runs that it has or can be asked for."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from pathlib import Path
@@ -213,7 +213,9 @@ class Study(Shown):
     ) -> StudyCoating:
         """Describe the coating of an entry of this kind; what is None in `own` is that of the config."""
         if casing not in self.config.casings:
-            raise InputError("casing", casing, _one_of(casing, self.config.casings))
+            close = get_close_matches(str(casing), self.config.casings, n=1)
+            hint = f"; did you mean {close[0]}?" if close else ""
+            raise InputError("casing", casing, f"must be one of {', '.join(self.config.casings)}{hint}")
         values |= {name: value for name, value in own.items() if value is not None}
         plain: Any = {name: checked_number(self.config, name, value) for name, value in values.items()}
         case = grid.listed_case(kind.model_construct(casing=casing, **plain))
@@ -282,8 +284,3 @@ def settings_of(*configs: Config | None) -> Config:
 def _found(path: str | Path) -> Path:
     places = (folder / path for folder in (Path(), study_folder(), ROOT))
     return next((place for place in places if place.is_file()), Path(path))
-
-
-def _one_of(name: str, choices: Collection[str]) -> str:
-    close = get_close_matches(str(name), choices, n=1)
-    return f"must be one of {', '.join(choices)}" + (f"; did you mean {close[0]}?" if close else "")

@@ -219,6 +219,7 @@ def _is_run(path: Path) -> bool:
 def _in_words(figures: dict[str, Any]) -> str:
     order = figures["engine_order"]
     duration = f", after {figures['growth_revolutions']} revolutions"
+    harmonic, share = figures["wear_harmonic"], f"{100 * figures['wear_harmonic_share']:.0f}"
     rows = {
         "coating": _coating_in_words(figures),
         **({"law": law} if (law := figures["element_law"]) not in (None, "plastic") else {}),
@@ -231,7 +232,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
         **_layer_in_words(figures),
         "lobes": figures["lobes"],
-        "strongest harmonic of the wear": _harmonic_in_words(figures),
+        "strongest harmonic of the wear": f"{harmonic} ({share} % of the variance)" if harmonic else "none",
         "growth": _growth_in_words(figures),
         "saturating": ("yes" if figures["saturating"] else "no") + duration,
         "divergent": ("yes" if figures["divergent"] else "no") + duration,
@@ -263,11 +264,6 @@ def _coating_in_words(figures: dict[str, Any]) -> str:
         return "none, the casing is rigid"
     unit = figures["modulus_unit"] / 1e6
     return ", ".join(f"{name} = {figures[name]:g} ({figures[name] * unit:.4g} MPa)" for name in ("E", "K"))
-
-
-def _harmonic_in_words(figures: dict[str, Any]) -> str:
-    harmonic, share = figures["wear_harmonic"], figures["wear_harmonic_share"]
-    return f"{harmonic} ({100 * share:.0f} % of the variance)" if harmonic else "none"
 
 
 def _growth_in_words(figures: dict[str, Any]) -> str:

@@ -40,10 +40,7 @@ def add_to(commands: Any) -> None:
 
 
 def status(options: argparse.Namespace) -> int:
-    """Count the runs of the study and print the counts; return 2 if the system refuses to read any of them.
-
-    Raises `ConfigError`.
-    """
+    """Count the runs of the study and print the counts; return 2 if the system refuses to read any."""
     config, notes = inputs.read_config_with_notes(options)
 
     from bladerub.blade.cache import kept_frequency

@@ -87,16 +87,13 @@ def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
 
 
 def _place(location: tuple, key: Key, value: Any) -> tuple[list[Any], Key, Key, Any]:
-    """Follow the location of a mistake to its path, the group that it is in, its key and the value.
-
-    Besides names and indices it has the tags of kinds of group, and ``[key]`` where a name is wrong.
-    """
+    """Follow the location of a mistake to its path, the group that it is in, its key and the value."""
     parts: list[Any] = []
     group = key
     for part in location:
-        if part == "[key]":
+        if part == "[key]":  # a name is wrong
             return parts, group, group.names, value
-        if len(key.models) > 1:
+        if len(key.models) > 1:  # the part is the tag of a kind of group
             key = replace(key, models={"": key.models[part]})
             continue
         parts.append(part)

@@ -73,9 +73,8 @@ def converted(config: Located, kind: Any = None, study: Config | None = None) ->
     that it is for.
     """
     key = key_of(kind or whole())
-    config = _converted(config, key, unknown)
     if kind and study is None:
-        return config, []
+        return _converted(config, key, unknown), []
     reasons: list[str] = []
 
     @cache
@@ -118,10 +117,7 @@ def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
 
 
 def _sound(config: Located, parts: set[str]) -> Config:
-    """Make a config of the keys at the top in `parts`; quantities to be converted have any value.
-
-    Raises `Unknown` where one of them has another problem.
-    """
+    """Make a config of `parts`, any value for quantities; raises `Unknown` if one has another problem."""
     from bladerub.config.checks import check  # takes half a second to import
 
     values = _converted(config, key_of(whole()), unknown, lambda key: key.highest).plain()

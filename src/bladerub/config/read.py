@@ -1,8 +1,4 @@
-"""The configuration: read, merged, and checked before anything is computed.
-
-`read` lays YAML files over one another as Snakemake does and checks the result; it reports every problem in
-one line that names the location, the key, the value and what would be right.
-"""
+"""Config files laid over one another as Snakemake does, and checked before anything is computed."""
 
 import json
 import re

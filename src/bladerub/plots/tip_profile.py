@@ -62,7 +62,10 @@ def _draw_whole(axes: Axes, scene: PressedElements) -> None:
     axes.text(0, 0.8 * bottom, "blade tip", ha="center", va="center", color=DARK)
     _draw_angle(axes, scene)
     _draw_force(axes, scene)
-    _draw_rotation(axes, 1e3 * ((scene.tip_offset[-1] + 1) * scene.width), 0.55 * bottom, x_max)
+    start, height = 1e3 * ((scene.tip_offset[-1] + 1) * scene.width), 0.55 * bottom
+    end, arrow = start + 0.35 * (x_max - start), {"arrowstyle": "-|>", "color": DARK, "linewidth": 1.2}
+    axes.annotate("", (end, height), (start, height), arrowprops=arrow)
+    axes.text(end, height, r"  rotation, $e_\theta$", va="center")
     axes.set(xlim=(x_min, x_max), ylim=(bottom, top), aspect="equal", ylabel="height (mm)")
 
 
@@ -86,12 +89,6 @@ def _draw_force(axes: Axes, scene: PressedElements) -> None:
     axes.annotate("$F^c$", end, xytext=(-4, 2), textcoords="offset points", color=RED, ha="right")
     axes.plot(0, height, marker="o", markersize=6, color=RED, linestyle="none", label="interface node")
     axes.legend(loc="lower left")
-
-
-def _draw_rotation(axes: Axes, x: float, y: float, x_max: float) -> None:
-    end = x + 0.35 * (x_max - x)
-    axes.annotate("", (end, y), (x, y), arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 1.2})
-    axes.text(end, y, r"  rotation, $e_\theta$", va="center")
 
 
 def _draw_ends(axes: Axes, scene: PressedElements) -> None:

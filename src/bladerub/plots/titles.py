@@ -29,10 +29,7 @@ def angle(theta: float) -> str:
 
 
 def coating(case: CoatingCase, unit: float | None = None) -> str:
-    """Full name: ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, or ``rigid casing 2nd, μ = 0.15``.
-
-    If `unit`, Pa, is given, it says that E = 1 and K = 1 are that.
-    """
+    """Full name, as ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, with the `unit` of the moduli, Pa."""
     variant = "".join(f", {_OWN[key].format(value)}" for key, value in case.own.items())
     if case.is_rigid:
         return f"rigid casing {case.casing}, μ = {case.friction:g}{variant}"
