@@ -8,7 +8,7 @@ from bladerub.config import quantities
 from bladerub.config.checks import most_revolutions
 from bladerub.config.problems import checked_quantity
 from bladerub.contact.spec import RunSpec
-from bladerub.settings.quantities import QUANTITIES
+from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config
 from bladerub.settings.units import pressure_in_words, speed_in_words
 from bladerub.study import grid

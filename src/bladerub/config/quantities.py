@@ -11,7 +11,7 @@ from bladerub.config.files import Located
 from bladerub.config.keys import Key, key_of
 from bladerub.config.problems import problems
 from bladerub.settings import units
-from bladerub.settings.quantities import QUANTITIES
+from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config, typed, whole
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, modulus_unit
 

@@ -5,8 +5,14 @@ from typing import Annotated
 from pydantic import Field
 
 from bladerub.settings.coatings import Histories
-from bladerub.settings.fields import ASCENDING, Limit, Metre, Number, Omitted, Section, Speed, Unit
-from bladerub.settings.quantities import EngineOrders
+from bladerub.settings.fields import ASCENDING, UNIQUE, Limit, Metre, Number, Omitted, Section, Speed, Unit
+
+EngineOrder = Annotated[
+    int,
+    Limit("at most", "analysis.max_order"),
+    Field(ge=1, le=1000, description="Vibrations in one revolution."),
+]
+EngineOrders = Annotated[list[EngineOrder], UNIQUE, Field(min_length=1, max_length=1000)]
 
 
 class Peaks(Section):

@@ -5,6 +5,8 @@ from typing import Annotated, Any, Union
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from bladerub.settings.analysis import EngineOrders
+from bladerub.settings.coatings import DampingRatio, Interference, LayerThickness
 from bladerub.settings.fields import (
     UNIQUE,
     BladeLengths,
@@ -20,7 +22,6 @@ from bladerub.settings.fields import (
     Unit,
     disagreement,
 )
-from bladerub.settings.quantities import DampingRatio, EngineOrders, Interference, LayerThickness
 
 
 class TipProfile(Section):

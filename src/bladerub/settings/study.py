@@ -10,10 +10,9 @@ from pydantic.fields import FieldInfo
 from bladerub import plugins
 from bladerub.settings.analysis import Analysis, Figures
 from bladerub.settings.blade import BladeSpec
-from bladerub.settings.coatings import Coatings
+from bladerub.settings.coatings import Coatings, RunSpeed
 from bladerub.settings.contact import Contact, casings
 from bladerub.settings.fields import BladeLengths, Form, Limit, Number, Omitted, Section, Speed, Unit
-from bladerub.settings.quantities import RunSpeed
 
 
 class Speeds(Section):

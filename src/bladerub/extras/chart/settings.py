@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from bladerub.settings.coatings import CasingName, Theta, YoungModulus
 from bladerub.settings.fields import ASCENDING, Metre, Modulus, Number, Omitted, Pascal, Section, Speed, Unit
-from bladerub.settings.quantities import CasingName, Theta, YoungModulus
 
 # 24 each, even on a logarithmic scale but for the paper's 9 E and 6 K, which stand in for those next to them
 _E = [0.05, 0.068, 0.091, 0.11, 0.17, 0.2, 0.3, 0.41, 0.5, 0.75, 1.1, 1.5]

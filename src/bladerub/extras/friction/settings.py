@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from bladerub.settings.coatings import CasingName, PlasticModulus, Theta, YoungModulus
 from bladerub.settings.fields import Section
-from bladerub.settings.quantities import CasingName, PlasticModulus, Theta, YoungModulus
 
 _SOME = Field(min_length=1, max_length=20)
 
