@@ -4,8 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bladerub.plots import engine_orders
-from bladerub.plots.scales import Engine
+from bladerub.plots.scales import Engine, draw_engine_orders
 from bladerub.plots.style import DARK, ORANGE, PAGE, new_figure, on_axes
 
 _FREQUENCY = r"eigenfrequency $f\,/\,f_1(0)$"
@@ -55,7 +54,7 @@ def _draw(
     engine: Engine | None,
 ) -> None:
     fastest = float(f_omega.max())
-    engine_orders.draw(axes, {k: k for k in orders}, fastest, highest)
+    draw_engine_orders(axes, {k: k for k in orders}, fastest, highest)
     for mode in range(f_rom.shape[1]):
         rom, fe = ("reduced model", "finite elements") if mode == 0 else ("_rom", "_fe")
         axes.plot(f_omega, f_rom[:, mode], color=ORANGE, linewidth=2.6, label=rom)

@@ -1,6 +1,6 @@
 """What the normalised numbers of a figure are on its blade: E and K in Pa, speeds, large displacements."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,12 +16,32 @@ LARGE = f"displacement above {LARGE_DISPLACEMENT:.0%} of the blade's length"
 
 _OUTWARD = 36  # points from the axis whose numbers and name stand between
 _LINE = {"color": DARK, "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
+_ORDER = {"color": "#8f8f8f", "linewidth": 0.6, "zorder": 1.5}
+_NEAREST = (0.13, 0.035)  # shares of the axes; a name of an order closer to the one before is left out
 
 
 def greatest(*values: np.ndarray | float) -> float:
     """Return the greatest of `values`, where an axis or a scale can end: 1 where none is above 0."""
     numbers = np.concatenate([np.ravel(value) for value in values] or [[]]).astype(float)
     return float(np.max(numbers, where=numbers > 0, initial=0.0)) or 1.0
+
+
+def draw_engine_orders(axes: Axes, slopes: Mapping[int, float], x_max: float, y_max: float) -> None:
+    """Draw f = k f_Ω, named where it leaves the picture, with its slope by k: k over f_Ω, 1 / k over f."""
+    label, anchor = "engine orders eo(k)", (x_max, 0.0)
+    for k, slope in slopes.items():
+        x = min(x_max, y_max / slope)
+        axes.plot([0, x], [0, slope * x], label=label, **_ORDER)
+        label = "_eo"
+        if abs(x - anchor[0]) < _NEAREST[0] * x_max and abs(slope * x - anchor[1]) < _NEAREST[1] * y_max:
+            continue
+        anchor = (x, slope * x)
+        if slope * x_max > y_max:
+            place = {"xytext": (0, 2), "ha": "center", "va": "bottom"}
+        else:
+            place = {"xytext": (2, 0), "ha": "left", "va": "center"}
+        look = {"fontsize": 7, "color": "#555555", "annotation_clip": False}
+        axes.annotate(f"eo({k})", anchor, textcoords="offset points", **place, **look)
 
 
 @dataclass(frozen=True)

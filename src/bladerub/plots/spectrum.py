@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from bladerub.plots import bins, engine_orders, titles
-from bladerub.plots.scales import LARGE, UNKNOWN, Scales, greatest
+from bladerub.plots import bins, titles
+from bladerub.plots.scales import LARGE, UNKNOWN, Scales, draw_engine_orders, greatest
 from bladerub.plots.style import (
     AMPLITUDE_MAP,
     BLUE,
@@ -119,7 +119,7 @@ def _draw_spectrum(
         rasterized=True,
     )
     speed_max = float(speed_edges[-1])
-    engine_orders.draw(axes, {k: 1 / k for k in ORDERS}, f_max, speed_max)
+    draw_engine_orders(axes, {k: 1 / k for k in ORDERS}, f_max, speed_max)
     dashed = {"color": BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.4}
     axes.plot(coating.C1, coating.f_omega, label="$C_1$", zorder=3, **dashed)
     large = coating.f_omega[scales.is_large(coating)]
