@@ -17,17 +17,7 @@ from bladerub.io.errors import format_value
 from bladerub.io.folders import study_folder
 from bladerub.settings.contact import AnyCasing
 from bladerub.settings.study import Config
-from bladerub.study.grid import (
-    OWN,
-    SPEED_DECIMALS,
-    UNSCALED,
-    CoatingCase,
-    cases_of,
-    casing_spec,
-    coating_cases,
-    listed_case,
-    speeds,
-)
+from bladerub.study import grid
 from bladerub.study.orders import peak_orders, used_casings
 from bladerub.study.paper import HISTORIES
 
@@ -120,8 +110,8 @@ def _stable_steps(config: Config) -> Iterator[str]:
     if current_blade(config, model)[0] is None:
         return
     blade, n_elements = read_reduced_blade(model), config.contact.elements
-    longest = (solver.max_time_step or math.inf) * config.contact.plugged("scale", UNSCALED).time
-    for f_omega in speeds(config):
+    longest = (solver.max_time_step or math.inf) * config.contact.plugged("scale", grid.UNSCALED).time
+    for f_omega in grid.speeds(config):
         passage = 1 / (f_omega * blade.f1_hz * n_elements)
         step = passage / own_steps(passage, solver.steps_per_element or 0, longest)
         stable = 2 / mode_shapes_at(blade, f_omega)[0][-1]
@@ -144,14 +134,14 @@ def _tables(config: Config) -> Iterator[str]:
     """Read the tables of measured casings."""
     for name, entry in config.casings.items():
         try:
-            casing_spec("", entry)
+            grid.casing_spec("", entry)
         except ValueError as error:
             yield f"casings.{name}.{error}"
 
 
 @reads("casings", "contact", "blade", "coatings")
 def _contact_at_all(config: Config) -> Iterator[str]:
-    cases = coating_cases(config)
+    cases = grid.coating_cases(config)
     for name in config.casings:
         depths = [case.own.get("interference") for case in cases if case.casing == name]
         if not depths or None in depths:  # or each coating says how deep, see `own_problem`
@@ -161,7 +151,7 @@ def _contact_at_all(config: Config) -> Iterator[str]:
 def casing_problems(config: Config, name: str) -> Iterator[str]:
     """Say how the depth of a casing is wrong for coatings that have no `interference` of their own."""
     thickness, entry = config.contact.layer_thickness, config.casings[name]
-    depth, key = casing_spec(name, entry).interference, f"casings.{name}.interference"
+    depth, key = grid.casing_spec(name, entry).interference, f"casings.{name}.interference"
     bound = _depth_bound(config, entry, depth)
     if entry.plugged("table"):
         if entry.interference is None:
@@ -176,7 +166,7 @@ def casing_problems(config: Config, name: str) -> Iterator[str]:
 
 def _depth_bound(config: Config, entry: AnyCasing, depth: float) -> str | None:
     """Say what the depth of a casing must be, where the blade would touch all around, or never."""
-    casing, smallest = casing_spec("", entry), smallest_clearance(config)
+    casing, smallest = grid.casing_spec("", entry), smallest_clearance(config)
     lowest = float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
     deepest = casing.amplitude * (1 - lowest) + smallest
     if depth > deepest:
@@ -190,14 +180,14 @@ def smallest_clearance(config: Config) -> float:
     """Smaller clearance at an edge of the tip, in m before ``contact.scale``, as those of the casings."""
     clearance = config.contact.clearance
     smallest = min(clearance.leading_edge, clearance.trailing_edge) * config.blade.length
-    return smallest / config.contact.plugged("scale", UNSCALED).length
+    return smallest / config.contact.plugged("scale", grid.UNSCALED).length
 
 
-def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
+def own_problem(config: Config, case: grid.CoatingCase) -> tuple[str, str] | None:
     """Say what is wrong with the values of its own that a coating has: the key, and what would be right."""
     casing, values = config.casings[case.casing], case.own
     thickness = values.get("layer_thickness", config.contact.layer_thickness)
-    depth = values.get("interference", casing_spec("", casing).interference)
+    depth = values.get("interference", grid.casing_spec("", casing).interference)
     if "interference" not in values:
         bound = f"above the interference of the casing, {depth:g} m, or the blade reaches through the coating"
         return ("layer_thickness", bound) if depth >= thickness else None
@@ -210,7 +200,7 @@ def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
 @reads("casings", "contact", "blade", "coatings")
 def _own_values(config: Config) -> Iterator[str]:
     for index, entry in enumerate(config.coatings):
-        for case in cases_of(entry) if OWN.keys() & entry.model_fields_set else ():
+        for case in grid.cases_of(entry) if grid.OWN.keys() & entry.model_fields_set else ():
             if problem := own_problem(config, case):
                 key, bound = problem
                 yield f"coatings[{index}].{key} = {case.own[key]:g}: must be {bound}"
@@ -218,11 +208,11 @@ def _own_values(config: Config) -> Iterator[str]:
 
 @reads("coatings", "speeds")
 def _runs(config: Config) -> Iterator[str]:
-    n_speeds = len(speeds(config))
+    n_speeds = len(grid.speeds(config))
     if n_speeds < 2:
         stop = config.speeds.stop
         yield f"speeds.stop = {stop:g}: must give two speeds or more, for maps and peaks"
-    n_runs = len(coating_cases(config)) * n_speeds
+    n_runs = len(grid.coating_cases(config)) * n_speeds
     if n_runs > MOST_RUNS:
         yield f"speeds: {n_speeds} speeds are {n_runs} runs on all coatings, must be {MOST_RUNS} or fewer"
 
@@ -243,22 +233,22 @@ def _revolutions(config: Config) -> Iterator[str]:
 
 @reads("analysis", "coatings", "speeds")
 def _histories(config: Config) -> Iterator[str]:
-    cases, grid = set(coating_cases(config)), set(speeds(config))
+    cases, all_speeds = set(grid.coating_cases(config)), set(grid.speeds(config))
     for index, entry in enumerate(config.analysis.histories):
-        key, case = f"analysis.histories[{index}]", listed_case(entry)
-        f_omega = round(entry.f_omega, SPEED_DECIMALS)
+        key, case = f"analysis.histories[{index}]", grid.listed_case(entry)
+        f_omega = round(entry.f_omega, grid.SPEED_DECIMALS)
         if (case, f_omega) in HISTORIES:  # the paper's, which a study of other coatings or speeds leaves out
             continue
         if case not in cases:
             yield f"{key} = {case.name}: must be one of the coatings, add it there or drop it here"
-        if f_omega not in grid:
+        if f_omega not in all_speeds:
             requirement = "one of the speeds, add it to speeds.extra or drop it here"
             yield f"{key}.f_omega = {entry.f_omega:g}: must be {requirement}"
 
 
 @reads("analysis", "casings", "coatings", "speeds")
 def _crossings(config: Config) -> Iterator[str]:
-    fastest, orders = speeds(config)[-1], {}
+    fastest, orders = grid.speeds(config)[-1], {}
     for name in used_casings(config):
         has_orders = config.casings[name].peak_orders
         key = f"casings.{name}.peak_orders" if has_orders else "analysis.peaks.orders"
