@@ -2,13 +2,14 @@
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots.polar import closed, prepare_polar
 from bladerub.plots.scales import greatest
-from bladerub.plots.style import BLUE, COLUMN, FIRST, GREY, PAGE, RED, SECOND, VIOLET, alone
+from bladerub.plots.style import BLUE, COLUMN, FIRST, GREY, PAGE, RED, SECOND, VIOLET, new_figure, on_axes
 
 _LOOKS = (
     FIRST,
@@ -20,11 +21,12 @@ _LOOKS = (
 )
 
 
-@alone(PAGE, 0.42 * PAGE)
+@on_axes
 def history(
-    axes: Axes, revolution: np.ndarray, displacement: np.ndarray, amplitude: np.ndarray, name: str
-) -> None:
+    revolution: np.ndarray, displacement: np.ndarray, amplitude: np.ndarray, name: str, ax: Axes | None = None
+) -> Figure:
     """Draw the radial displacement of node 1 over the `revolution` (n,), and its amplitude in each, m."""
+    axes = ax or new_figure(PAGE, 0.42 * PAGE).add_subplot()
     line = _add(axes, revolution, 1e3 * displacement, name, linewidth=0.6, alpha=0.5)
     middle, marks = np.arange(amplitude.size) + 0.5, {"marker": "o", "markersize": 3, "label": "_amplitude"}
     axes.plot(middle, 1e3 * amplitude, color=line.get_color(), linestyle=line.get_linestyle(), **marks)
@@ -32,24 +34,28 @@ def history(
     axes.set(xlabel="revolution; dots: half the range in each", ylabel="radial displacement (mm)")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.grid(axis="y")
+    return axes.figure
 
 
-@alone(PAGE, 0.42 * PAGE)
-def spectrum(axes: Axes, order: np.ndarray, amplitude: np.ndarray, name: str) -> None:
+@on_axes
+def spectrum(order: np.ndarray, amplitude: np.ndarray, name: str, ax: Axes | None = None) -> Figure:
     """Draw the amplitude (m) of the radial displacement of node 1 over the engine order, both (m,)."""
+    axes = ax or new_figure(PAGE, 0.42 * PAGE).add_subplot()
     _add(axes, order, 1e3 * np.asarray(amplitude), name)
     axes.margins(x=0)
     axes.set(ylim=(0, 1.05 * _top(axes)), xlabel="engine order", ylabel="amplitude of $u_r$ (mm)")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True, nbins=14))
     axes.grid()
+    return axes.figure
 
 
-@alone(COLUMN, 1.15 * COLUMN, projection="polar")
-def wear(axes: Axes, angle: np.ndarray, depth: np.ndarray, name: str) -> None:
+@on_axes
+def wear(angle: np.ndarray, depth: np.ndarray, name: str, ax: Axes | None = None) -> Figure:
     """Draw the worn depth (n,), m, over the casing angle (n,), rad.
 
     It is drawn outward from the unworn surface in polar axes, over degrees in others.
     """
+    axes = ax or new_figure(COLUMN, 1.15 * COLUMN).add_subplot(projection="polar")
     millimetres = 1e3 * np.asarray(depth)
     if isinstance(axes, PolarAxes):
         prepare_polar(axes)
@@ -63,6 +69,7 @@ def wear(axes: Axes, angle: np.ndarray, depth: np.ndarray, name: str) -> None:
         axes.set(xlim=(0, 360), xticks=range(0, 361, 60), ylim=(0, 1.06 * _top(axes)))
         axes.set(xlabel="casing angle (°)", ylabel="worn depth, mean of the nodes (mm)")
     axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
+    return axes.figure
 
 
 def _add(axes: Axes, x: np.ndarray, y: np.ndarray, name: str, **look: float) -> Line2D:

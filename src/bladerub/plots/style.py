@@ -120,22 +120,6 @@ def on_axes(draw: Callable[..., Figure]) -> Callable[..., Any]:
     return drawn
 
 
-def alone(width: float, height: float, **subplot: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Let a function that draws into axes draw a figure of this size without them; rest as `on_axes`."""
-
-    def decorate(draw_into: Callable[..., Any]) -> Callable[..., Any]:
-        @on_axes
-        @wraps(draw_into)
-        def draw(*args, ax: Axes | None, **kwargs) -> Figure:
-            axes = ax or new_figure(width, height).add_subplot(**subplot)
-            draw_into(axes, *args, **kwargs)
-            return axes.figure
-
-        return draw
-
-    return decorate
-
-
 def new_figure(width: float = PAGE, height: float = 0.6 * PAGE) -> Figure:
     """Empty figure of `width` × `height` inches; its axes are placed so that nothing overlaps."""
     return Picture(figsize=(width, height), layout="constrained")
