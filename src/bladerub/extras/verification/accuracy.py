@@ -1,7 +1,7 @@
 """The errors of runs drawn from the study: a table with a row for each run, and their distribution."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,6 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.extras.verification.differences import Differences
-from bladerub.extras.verification.response import CASE_COLUMNS
 from bladerub.extras.verification.verify import TOLERANCE, StudyRun, VerifiedRun, draw, verify_runs
 from bladerub.io.plain import plain
 from bladerub.settings.study import Config
@@ -19,7 +18,7 @@ DRAWS = {"all": [(1, 40), (2, 40), (3, 40)], "important": [(1, 100)]}
 """Seeds of the draws and numbers of runs, from all of the study and from those that claims rest on."""
 
 COLUMNS = [
-    *("drawn_from", "seed", *CASE_COLUMNS, "law", "f_omega", "status"),
+    *("drawn_from", "seed", "casing", "E", "K", "theta", "law", "f_omega", "status"),
     *(f"error_{measure}" for measure in Differences._fields),
     *(f"start_{measure}" for measure in Differences._fields),
     *("sensitive", "energy_residual", "speedup_at_equal_error", "cpu_s"),
@@ -49,12 +48,12 @@ def table(
 
 
 def _cells(verified: VerifiedRun) -> list[Any]:
-    case, spread = verified.run.case, verified.spread or (None,) * len(Differences._fields)
+    *coating, variant = astuple(verified.run.case)
     return [
-        *(getattr(case, name) for name in (*CASE_COLUMNS, "law")),
-        *(verified.run.f_omega, verified.status, *verified.error, *spread),
+        *(*coating, verified.run.f_omega, verified.status, *verified.error),
+        *(verified.spread or (None,) * len(Differences._fields)),
         *(verified.is_sensitive, verified.energy_residual, verified.speedup, verified.seconds.study),
-        case.variant,
+        variant,
     ]
 
 

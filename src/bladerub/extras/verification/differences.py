@@ -1,4 +1,4 @@
-"""How much two outcomes of the same run differ."""
+"""Spectrum and amplitude of the outcome of a run, and how much two outcomes of the same run differ."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.contact.result import RunResult
-from bladerub.extras.verification.response import spectrum
+from bladerub.extras.verification.impact import Motion
 from bladerub.settings.analysis import Analysis
+from bladerub.study.spectra import order_spectrum
 from bladerub.study.summary import spectral_peak
 
 
@@ -22,6 +23,21 @@ class Differences(NamedTuple):
 
 UNBOUNDED = Differences(math.inf, math.inf, math.inf)
 """The differences where one of two outcomes is unbounded."""
+
+
+def spectrum(run: RunResult | Motion, analysis: Analysis) -> tuple[np.ndarray, np.ndarray]:
+    """Return engine orders and amplitudes (m) of a run, as the study has them."""
+    n_revolutions = run.revolution_peak.size
+    return order_spectrum(
+        run.radial_displacement, n_revolutions, analysis.spectrum_revolutions, analysis.max_order
+    )
+
+
+def amplitude_on(order: float, run: RunResult | Motion, analysis: Analysis) -> float:
+    """Return the amplitude of a run on an engine order, m, as in `bladerub.study.peaks`."""
+    orders, amplitude = spectrum(run, analysis)
+    window = np.abs(orders - order) <= analysis.peaks.order_halfwidth + 1e-9
+    return float(amplitude[window].max())
 
 
 def differences(

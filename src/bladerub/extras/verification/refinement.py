@@ -11,9 +11,9 @@ find even places. More nodes give the reduced model more static modes of the tip
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import astuple, replace
+from dataclasses import astuple, dataclass, field, replace
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -25,10 +25,10 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel, fixed_steps
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.strips import strip_width
-from bladerub.extras.verification.response import CASE_COLUMNS, Response, listed
+from bladerub.extras.verification.differences import amplitude_on
 from bladerub.settings.study import Config
-from bladerub.study.grid import CoatingCase, element_law, run_spec
-from bladerub.study.variants import with_variant
+from bladerub.study.grid import CoatingCase, element_law, run_spec, speeds
+from bladerub.study.variants import filled, with_variant
 
 REFINEMENTS = (1, 2, 4)
 """How many times finer the bars are; 1 are the study's."""
@@ -38,7 +38,47 @@ NODES = (8, 16, 24)
 
 CHORDWISE = 24  # elements; 49 nodes along the camber line
 
+CASES = [
+    CoatingCase("2nd", *layer)
+    for layer in [(0.11, 0.5, 0.0), (1.1, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 0.5, 0.15), (20.0, 10.0, 0.0)]
+]
+"""Coatings of the paper whose peaks are compared: those of Figs. 8, 9, 15 and 16, and the stiffest."""
+
 _COMPARED = ("f_peak", "amplitude", "amplitude_change", "volume_change", "wear_difference", "status")
+
+
+@dataclass
+class Response:
+    """Response of `case` on an engine order; each run of the study is simulated after a `change`."""
+
+    blade: ReducedBlade
+    config: Config
+    case: CoatingCase
+    order: float
+    change: Callable[[RunSpec], RunSpec]
+    runs: dict[float, RunResult] = field(default_factory=dict)  # by speed
+
+    def run(self, f_omega: float) -> RunResult:
+        """Return the run at `f_omega`."""
+        if f_omega not in self.runs:
+            spec = self.change(run_spec(self.config, self.case, f_omega))
+            self.runs[f_omega] = simulate(self.blade, spec)
+        return self.runs[f_omega]
+
+    def amplitude(self, f_omega: float) -> float:
+        """Amplitude on the engine order, m."""
+        return amplitude_on(self.order, self.run(f_omega), self.config.analysis)
+
+    def top(self, f_omega: float) -> float:
+        """Speed of the study at which the amplitude, rising from `f_omega` on, is greatest."""
+        grid = speeds(self.config)
+        index = int(np.argmin(np.abs(np.array(grid) - f_omega)))
+        while True:
+            neighbours = grid[max(index - 1, 0) : index + 2]
+            best = grid.index(max(neighbours, key=self.amplitude))
+            if best == index:
+                return grid[index]
+            index = best
 
 
 class Model(NamedTuple):
@@ -47,6 +87,13 @@ class Model(NamedTuple):
     blade: ReducedBlade
     wear: Callable[[RunResult], np.ndarray]  # mean wear of a run, m, of one shape in all models
     change: Callable[[RunSpec], RunSpec] = lambda spec: spec
+
+
+def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
+    """List coating and row of the peaks of the `CASES` in a table ``peaks.csv``, or of all if it has none."""
+    rows = filled(peaks[peaks.law == "theta"]).dropna(subset=["f_peak"]).itertuples()
+    described = [(CoatingCase.described(row._asdict()), row) for row in rows]
+    return [pair for pair in described if pair[0] in CASES] or described
 
 
 def finer_bars(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
@@ -99,9 +146,11 @@ def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd
                 wear.sum() / own_wear.sum() - 1,
                 np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear),
             )
-            what = (*astuple(case)[: len(CASE_COLUMNS)], peak.order, number)
-            rows.append((*what, speed, amplitude, *changes, response.run(start).status, case.variant))
-    return pd.DataFrame(rows, columns=[*CASE_COLUMNS, "order", column, *_COMPARED, "variant"])
+            *coating, _, variant = astuple(case)
+            what = (*coating, peak.order, number)
+            rows.append((*what, speed, amplitude, *changes, response.run(start).status, variant))
+    columns = ["casing", "E", "K", "theta", "order", column, *_COMPARED, "variant"]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def _table(rows: pd.DataFrame) -> pd.DataFrame:

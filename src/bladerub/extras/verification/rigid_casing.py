@@ -22,7 +22,7 @@ from bladerub.contact.setup import fixed_steps
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import with_steps
 from bladerub.extras.verification import impact
-from bladerub.extras.verification.response import amplitude_on
+from bladerub.extras.verification.differences import amplitude_on
 from bladerub.settings.analysis import Analysis
 from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec, speeds

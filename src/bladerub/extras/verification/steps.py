@@ -14,7 +14,6 @@ from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import own_steps, with_steps
 from bladerub.contact.strips import element_passage
 from bladerub.extras.verification.differences import differences, largest
-from bladerub.extras.verification.response import CASE_COLUMNS
 from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, TOLERANCE, StudyRun
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec, speeds
@@ -34,8 +33,8 @@ SAMPLE = 12
 SEED = 11
 
 COLUMNS = [
-    *(*CASE_COLUMNS, "law", "f_omega", "tolerance", "steps_per_element", "steps_per_revolution"),
-    *("error", "sensitive", "energy_residual"),
+    *("casing", "E", "K", "theta", "law", "f_omega"),
+    *("tolerance", "steps_per_element", "steps_per_revolution", "error", "sensitive", "energy_residual"),
 ]
 """Columns of ``steps.csv``; the tolerance of `UNIFORM` is empty."""
 
@@ -87,11 +86,11 @@ def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[A
     if error > TOLERANCE and math.isfinite(error):
         starts = (simulate(blade, replace(specs[STUDY], initial_displacement=start)) for start in NEIGHBOURS)
         spread = max(largest(differences([start], [results[STUDY]], analysis) for start in starts))
+    *coating, variant = astuple(run.case)
     for tolerance, result in results.items():
         yield [
-            *astuple(run.case)[: len(CASE_COLUMNS)],
-            *(run.case.law, run.f_omega, tolerance, steps[tolerance]),
+            *(*coating, run.f_omega, tolerance, steps[tolerance]),
             steps[tolerance] * spec.coating.n_elements,
             *(errors[tolerance], spread >= max(error / 2, TOLERANCE), result.energy.residual),
-            run.case.variant,
+            variant,
         ]

@@ -10,7 +10,7 @@ from bladerub.contact.modes import Modes
 from bladerub.contact.setup import time_step
 from bladerub.contact.steps import with_steps
 from bladerub.contact.strips import element_area
-from bladerub.extras.verification import impact, refinement, response, rigid_casing
+from bladerub.extras.verification import impact, refinement, rigid_casing
 from bladerub.study.grid import run_spec
 from bladerub.study.peaks import COLUMNS
 
@@ -35,7 +35,7 @@ def test_the_peak_is_followed_and_compared_with_that_of_the_study(blade, config,
         result = make_result(amplitude=1e-3 * (1 - abs(spec.f_omega - peak)) / min(finer, 2), depth=1e-4)
         return replace(result, wear=np.repeat(result.wear, finer, axis=1) * finer)
 
-    monkeypatch.setattr(response, "simulate", simulate)
+    monkeypatch.setattr(refinement, "simulate", simulate)
     of_all = [(0.5, 0.15, "theta"), (0.5, 0.15, "coulomb"), (1.0, 0.0, "theta")]
     rows = [["2nd", 2.0, K, theta, 6, 0.31, 1e-3, law] for K, theta, law in of_all]
     bars = refinement.finer_bars(blade, config, pd.DataFrame(rows, columns=COLUMNS))
@@ -51,7 +51,7 @@ def test_all_coatings_are_listed_and_each_peak_and_a_plain_speed_is_compared_wit
 ):
     of_all = [(0.0, 4, 0.31, "theta"), (0.0, 6, 0.19, "theta"), (math.nan, 6, 0.19, "coulomb")]
     rows = [("bumps", 1.0, 0.5, theta, order, f_peak, 1e-3, law) for theta, order, f_peak, law in of_all]
-    found = response.listed(pd.DataFrame(rows, columns=COLUMNS))
+    found = refinement.listed(pd.DataFrame(rows, columns=COLUMNS))
     assert [(case.casing, peak.f_peak) for case, peak in found] == [("bumps", 0.31), ("bumps", 0.19)]
 
     def simulate(_, spec, modes, how):
