@@ -41,7 +41,7 @@ def rotor37_set(wildcards):
 rule rotor37_independent:
     input:
         blade=f"{ROTOR37}/reference/blade/reduced_model.h5",
-        computing=files_behind("extras.rotor37.independent"),
+        computing=files_behind("extras.rotor37.direct"),
     output:
         **described(table=f"{ROTOR37}/reference/independent.csv"),
     log:

@@ -5,11 +5,11 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras.rotor37.independent import table
+from bladerub.extras.rotor37.direct import independent
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
 config = snakemake.params.config
-numbers = table(typed(config), read_reduced_blade(snakemake.input.blade))
+numbers = independent(typed(config), read_reduced_blade(snakemake.input.blade))
 outputs.save(snakemake, origin=provenance(config), digits="%.7g", table=numbers)

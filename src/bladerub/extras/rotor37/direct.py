@@ -3,6 +3,10 @@
 Speed, damping, friction and gap are those of the example of blade and casing in NLstep (Monjaraz-Tec, Gross
 and Krack, Computers and Structures 260, 2022, 106698), which follows Piollet, Nyssen and Batailly (J. Sound
 Vib. 460, 2019, 114878): no centrifugal stiffening, 50 revolutions.
+
+`independent` repeats the case without friction by an integrator that shares no code with the time loop
+(`bladerub.extras.verification.impact`): with a massless boundary as the program of the example, by Moreau's
+time stepping, and with stiff springs.
 """
 
 from collections.abc import Mapping
@@ -10,12 +14,15 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.modes import modes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.rotor37.numbers import of_direct_contact
+from bladerub.extras.rotor37.numbers import of_direct_contact, of_displacement
+from bladerub.extras.verification import impact
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 
@@ -24,6 +31,11 @@ SPEED = 1344.0
 REVOLUTIONS = 50
 FRICTION = (0.0, 0.15)
 CASING = "bumps"
+
+STEPS = 20
+"""Time steps of `independent` in the passage of a coating element; half as many are tried as well."""
+COLUMNS = ["treatment", "modes", "steps", "number", "value", "unit"]
+"""Columns of `independent`."""
 
 
 def unstiffened(blade: ReducedBlade) -> ReducedBlade:
@@ -62,4 +74,28 @@ def last_revolution(results: Mapping[str, RunResult], points: int = 200) -> pd.D
         steps = np.arange(0, len(last), len(last) // points)
         turned = (steps + 0.5) * 2 * np.pi / len(last)
         parts.append(pd.DataFrame({"case": name, "turned": turned, "radial_displacement": last[steps]}))
+    return pd.concat(parts, ignore_index=True)
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
+def independent(config: Config, blade: ReducedBlade) -> pd.DataFrame:
+    """Simulate the case without stiffening and friction: its `numbers` by each way to compute it.
+
+    ``modes`` are those that move; the massless boundary has the others as static displacement.
+    """
+    model = unstiffened(blade)
+    spec = spec_of(config, blade, 0.0)
+    modes, damping = modes_at(model, spec.f_omega), spec.damping_ratio
+    parts = []
+    for steps in (STEPS // 2, STEPS):
+        variant = replace(spec, steps_per_element=steps)
+        step = impact.time_step(blade, variant)
+        rules = {("massless", n): impact.massless_boundary(modes, damping, step, n) for n in (10, 20, 50)} | {
+            ("moreau_jean_0", modes.omega.size): impact.moreau_jean(modes, damping, step, 0.0),
+            ("penalty_1e9", modes.omega.size): impact.penalty(modes, damping, step, 1e9),
+        }
+        for (treatment, n), rule in rules.items():
+            result = impact.simulate(rule, model, variant)
+            numbers = of_displacement("rest_mu0", result.radial_displacement, REVOLUTIONS)
+            parts.append(numbers.assign(treatment=treatment, modes=n, steps=steps)[COLUMNS])
     return pd.concat(parts, ignore_index=True)
