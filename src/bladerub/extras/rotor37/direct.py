@@ -66,12 +66,12 @@ def numbers(results: Mapping[str, RunResult]) -> pd.DataFrame:
     )
 
 
-def last_revolution(results: Mapping[str, RunResult], points: int = 200) -> pd.DataFrame:
-    """Radial displacement of node 1 in the last revolution of each of `runs`, by the angle turned."""
+def last_revolution(results: Mapping[str, RunResult]) -> pd.DataFrame:
+    """Radial displacement of node 1 at 200 angles of the last revolution of each of `runs`."""
     parts = []
     for name, result in results.items():
         last = result.radial_displacement.reshape(REVOLUTIONS, -1)[-1]
-        steps = np.arange(0, len(last), len(last) // points)
+        steps = np.arange(0, len(last), len(last) // 200)
         turned = (steps + 0.5) * 2 * np.pi / len(last)
         parts.append(pd.DataFrame({"case": name, "turned": turned, "radial_displacement": last[steps]}))
     return pd.concat(parts, ignore_index=True)
@@ -96,6 +96,6 @@ def independent(config: Config, blade: ReducedBlade) -> pd.DataFrame:
         }
         for (treatment, n), rule in rules.items():
             result = impact.simulate(rule, model, variant)
-            numbers = of_displacement("rest_mu0", result.radial_displacement, REVOLUTIONS)
-            parts.append(numbers.assign(treatment=treatment, modes=n, steps=steps)[COLUMNS])
+            measures = of_displacement("rest_mu0", result.radial_displacement, REVOLUTIONS)
+            parts.append(measures.assign(treatment=treatment, modes=n, steps=steps)[COLUMNS])
     return pd.concat(parts, ignore_index=True)

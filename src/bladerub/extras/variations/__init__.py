@@ -5,5 +5,5 @@ config, `waves` draws positions, and `job` simulates sets of inputs: one plan, o
 
 Summaries: `verdicts` compares those of several sets; `robustness` gives the share in which a claim holds and,
 by `sensitivity`, what decides it; `identification` and `candidates` say which values agree with the paper, by
-`targets`, `emulator` and `implausibility`. `margins` judges the claims again on parts of a study.
+`targets` and `emulator`. `margins` judges the claims again on parts of a study.
 """

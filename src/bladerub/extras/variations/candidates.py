@@ -5,11 +5,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.variations.implausibility import of_simulated
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
+from bladerub.extras.variations.waves import implausibility, with_values
 from bladerub.extras.variations.waves import read as read_positions
-from bladerub.extras.variations.waves import with_values
 from bladerub.study.findings.claim import YES, claim_of
 
 _GREATEST = (
@@ -30,7 +29,7 @@ COLUMNS = ["candidate", "neighbour", "id", "holds", "margin"]
 
 def misfit(measured: pd.DataFrame) -> pd.Series:
     """Return the misfit of each simulated set: mean square of the implausibility of its targets, bounded."""
-    bounded = of_simulated(measured).fillna(_GREATEST).clip(upper=_GREATEST)
+    bounded = implausibility(measured).fillna(_GREATEST).clip(upper=_GREATEST)
     return (bounded**2).mean(axis=1)
 
 

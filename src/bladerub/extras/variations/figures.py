@@ -7,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bladerub.extras.variations.factors import Factor
-from bladerub.extras.variations.implausibility import CUTOFF
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.robustness import DECIDES, VERDICT
 from bladerub.extras.variations.targets import AT_LEAST, AT_MOST, TARGETS
+from bladerub.extras.variations.waves import CUTOFF
 from bladerub.plots import style
 
 SHARES = {"yes": style.DARK, "partly": style.ORANGE, "no": style.MISSING}

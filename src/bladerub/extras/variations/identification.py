@@ -8,12 +8,11 @@ import numpy as np
 import pandas as pd
 
 from bladerub.extras.variations.emulator import Emulator, Predicted, compared, held_out
-from bladerub.extras.variations.implausibility import CUTOFF, of_simulated, wide
 from bladerub.extras.variations.job import QUANTITIES
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
-from bladerub.extras.variations.waves import Remaining, as_table, with_values
+from bladerub.extras.variations.waves import CUTOFF, Remaining, as_table, implausibility, with_values
 from bladerub.study.findings.claim import YES
 
 PREDICTIONS = ["set", "target", "predicted_value", "deviation"]
@@ -33,6 +32,12 @@ _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusi
 def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Read the targets of all jobs: a row for each set, a column for each target, in their order."""
     return wide(read_jobs(paths, QUANTITIES))
+
+
+def wide(quantities: pd.DataFrame) -> pd.DataFrame:
+    """Return the measured targets (columns, in their order) of each set (rows)."""
+    table = quantities.pivot(index="set", columns="target", values="value")
+    return table[[name for name in TARGETS if name in table]]
 
 
 def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame:
@@ -64,7 +69,7 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
 
     `measured` is of all sets, the study's own the first; `predictions` are of sets that were simulated later.
     """
-    implausible, rows = of_simulated(measured), []
+    implausible, rows = implausibility(measured), []
     for name, values in measured.items():
         target, of_target = TARGETS[name], predictions[predictions.target == name].set_index("set")
         later = of_target.join(values.rename("simulated"), how="inner").dropna()

@@ -1,7 +1,12 @@
-"""The sampler: positions of sets in the ranges of the factors.
+"""The sampler: positions of sets in the ranges of the factors, and how implausible the sets there are.
 
 Those of a robustness, and of the first wave of an identification, are spread over all ranges (a scrambled
 Sobol sequence), those of later waves over what is left.
+
+The implausibility of a set is how far its targets miss what the paper prints, in standard deviations. For one
+target that is the excess over the square root of the variances of reading, of another blade and of
+the prediction (Craig, Goldstein, Seheult, Smith 1997; Vernon, Goldstein, Bower 2010, Bayesian Analysis 5).
+A set is left as long as the implausibility of no target exceeds `CUTOFF`, save of so many as are given up.
 """
 
 from collections.abc import Iterable, Mapping
@@ -13,8 +18,8 @@ import pandas as pd
 from scipy.spatial.distance import cdist
 from scipy.stats import qmc
 
-from bladerub.extras.variations.implausibility import CUTOFF, predicted, without
 from bladerub.extras.variations.plan import REFERENCE, Plan
+from bladerub.extras.variations.targets import TARGETS
 from bladerub.io.tables import read as read_table
 from bladerub.settings.study import Config
 
@@ -23,6 +28,9 @@ if TYPE_CHECKING:
 
 POSITIONS = ["set", "factor", "range_fraction"]
 """Columns of the sets of a wave: each factor as a fraction of its range."""
+
+CUTOFF = 3.0
+"""Implausibility above which a set is ruled out: at most 5 % of any unimodal distribution lies beyond."""
 
 POINTS = 2**14
 """Points at which it is asked what is left of the ranges; a power of two."""
@@ -87,12 +95,32 @@ def read(paths: Iterable[str | Path], index: str | list[str] = "set") -> pd.Data
     return wide[list(dict.fromkeys(long.factor))]
 
 
+def implausibility(measured: pd.DataFrame) -> pd.DataFrame:
+    """Return that of simulated sets (rows) for each of their `measured` targets; NaN as there."""
+    return measured.apply(lambda values: TARGETS[values.name].excess(values) / TARGETS[values.name].error)
+
+
+def predicted_implausibility(emulated: Mapping[str, "Emulator"], positions: np.ndarray) -> pd.DataFrame:
+    """Predict that of each emulated target (columns) at `positions` (m, d)."""
+    table = pd.DataFrame(index=range(len(positions)))  # also where nothing is emulated
+    for name, emulator in emulated.items():
+        (mean, deviation), target = emulator.predict(positions), TARGETS[name]
+        table[name] = target.excess(mean) / np.hypot(target.error, deviation)
+    return table
+
+
+def worst(implausible: pd.DataFrame, given_up: int) -> np.ndarray:
+    """Return the greatest implausibility of each set (n,), that of so many worse targets left out."""
+    values = np.sort(np.nan_to_num(implausible.to_numpy(), nan=np.inf), axis=1)
+    return values[:, -1 - given_up] if given_up < values.shape[1] else np.zeros(len(values))
+
+
 def remaining(plan: Plan, emulated: Mapping[str, "Emulator"]) -> Remaining:
     """Find what is left of the ranges; as few targets are given up as leave the share of the plan."""
     points = _spread(plan, np.random.default_rng([plan.seed, 0]), POINTS)
-    implausible = predicted(emulated, points)
+    implausible = predicted_implausibility(emulated, points)
     for given_up in range(implausible.shape[1] + 1):
-        plausible = without(implausible, given_up) <= CUTOFF
+        plausible = worst(implausible, given_up) <= CUTOFF
         if plausible.mean() >= plan.remaining:
             break
     return Remaining(points[plausible], float(plausible.mean()), given_up, (implausible <= CUTOFF).mean())
@@ -113,7 +141,7 @@ def draw(
             break
         neighbours = points[rng.integers(len(points), size=POINTS // 4)]
         neighbours = np.clip(neighbours + rng.uniform(-_REACH, _REACH, neighbours.shape), 0.0, 1.0)
-        plausible = without(predicted(emulated, neighbours), remainder.given_up) <= CUTOFF
+        plausible = worst(predicted_implausibility(emulated, neighbours), remainder.given_up) <= CUTOFF
         points = np.vstack([points, neighbours[plausible]])
     distance, indices = cdist(points, simulated).min(axis=1), []
     for _ in range(min(count, len(points))):

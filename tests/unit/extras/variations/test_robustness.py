@@ -6,7 +6,7 @@ from study_fixtures import CONFIG, changed
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.config.read import vary
-from bladerub.extras.variations import candidates, identification, implausibility, job, waves
+from bladerub.extras.variations import candidates, identification, job, waves
 from bladerub.extras.variations import robustness as summary
 from bladerub.extras.variations.emulator import Emulator, compared, held_out
 from bladerub.extras.variations.factors import Factor, lay_over
@@ -125,14 +125,14 @@ def test_the_deviation_of_a_prediction_makes_a_set_more_plausible_and_quantities
     positions = rng.random((40, 2))
     target = TARGETS["f4_soft"]
     far = target.value + 10 * target.error
-    sure = implausibility.predicted({"f4_soft": Emulator(positions, np.full(40, far))}, positions[:3])
+    sure = waves.predicted_implausibility({"f4_soft": Emulator(positions, np.full(40, far))}, positions[:3])
     assert sure.f4_soft.to_numpy() == pytest.approx(np.full(3, 10.0))
     scattered = far + 5 * target.error * rng.standard_normal(40)
-    unsure = implausibility.predicted({"f4_soft": Emulator(positions, scattered)}, positions)
+    unsure = waves.predicted_implausibility({"f4_soft": Emulator(positions, scattered)}, positions)
     assert unsure.f4_soft.median() < 4
     names = list(TARGETS)[3:0:-2]
     long = pd.DataFrame({"set": [7, 7, 2, 2], "target": names * 2, "value": [1.0, 2.0, 3.0, 4.0]})
-    table = implausibility.wide(long)
+    table = identification.wide(long)
     assert list(table.columns) == names[::-1]
     assert list(table.index) == [2, 7]
     assert table.loc[7, names[0]] == 1.0
@@ -190,8 +190,8 @@ def test_what_is_left_lies_where_the_targets_are_met_and_the_next_sets_there_far
     assert left.plausible["f4_soft"] == pytest.approx(0.15, rel=0.1)
     drawn = waves.draw(plan, 1, left, emulators, positions)
     assert len(drawn) == waves.DRAWN
-    misses = implausibility.predicted(emulators, drawn)
-    assert (implausibility.without(misses, left.given_up) <= 3).all()
+    misses = waves.predicted_implausibility(emulators, drawn)
+    assert (waves.worst(misses, left.given_up) <= 3).all()
     first = drawn[:8]
     apart = np.linalg.norm(first[:, None] - first, axis=2)[~np.eye(8, dtype=bool)]
     assert apart.min() > 0.02
