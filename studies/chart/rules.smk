@@ -177,7 +177,6 @@ rule chart_peaks:
         analysing=files_behind(
             "extras.chart.table",
             "extras.chart.ridge",
-            "extras.chart.explanation",
             "extras.chart.stiffening",
             "study.peaks",
         ),

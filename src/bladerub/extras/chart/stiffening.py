@@ -1,11 +1,14 @@
-"""Contact stiffening: which modulus the speed f_k of a peak follows (Fig. 12), and how θ changes it.
+"""What goes with a peak: worn lobes, energy in a cycle, and the modulus of the contact that f_k follows.
 
-While it wears, an element of the coating has the tangent modulus E_T = E K / (E + K). A small displacement
-of the first mode compresses element j by u_r,j; its force E_T u_r,j, along the inclined element, does the
-work ``E_T u_r,j (u_r,j cos θ + u_t,j sin θ)`` on that mode. Summed over the nodes, over the sum for straight
-elements, that is the *share* of E_T that stiffens the mode. If nothing else mattered, inclined elements would
-need ``1 / share`` times the modulus for the same f_k.
+Contact stiffens the blade (Fig. 12). While it wears, an element of the coating has the tangent modulus
+E_T = E K / (E + K). A small displacement of the first mode compresses element j by u_r,j; its force
+E_T u_r,j, along the inclined element, does the work ``E_T u_r,j (u_r,j cos θ + u_t,j sin θ)`` on that mode.
+Summed over the nodes, over the sum for straight elements, that is the *share* of E_T that stiffens the mode.
+If nothing else mattered, inclined elements would need ``1 / share`` times the modulus for the same f_k.
 """
+
+import itertools
+from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
@@ -14,12 +17,54 @@ from scipy.stats import spearmanr
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
+from bladerub.extras.chart.grid import chart_orders
+from bladerub.extras.chart.point import ChartPoint
+from bladerub.extras.chart.table import COATING
+from bladerub.settings.study import Config
+from bladerub.study.peaks import crossing_speed, row
+
+LOSSES = ("wear", "sliding", "damping")
+"""Where the energy goes: wear of the coating, its tangential resistance, damping of the blade."""
+
+EXPLANATION = [
+    *(*COATING, "order", "E_T", "f_crossing", "f_peak", "amplitude", "lobes"),
+    *(f"{loss}_per_cycle" for loss in LOSSES),
+]
+"""Columns of ``chart_explanation.csv``."""
 
 MODULI = ("E_T", "K", "E")
 """Moduli that f_k may follow: that of the wearing coating, the plastic modulus, Young's modulus."""
 
 SMALL = 0.05
 """Greatest rise of f_k, relative to the crossing speed, that counts as small stiffening."""
+
+
+def contact_stiffness(E: float, K: float) -> float:
+    """Tangent modulus of the coating while it wears, E_T = E K / (E + K): both moduli in series."""
+    return E * K / (E + K)
+
+
+def explanation(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
+    """Look at the run at the peak of each engine order.
+
+    A row per point and order: `COATING`, ``order``, ``E_T``, ``f_crossing``, ``f_peak``, ``amplitude`` (m),
+    ``lobes`` and each of `LOSSES` as ``<loss>_per_cycle`` (J), the mean over the run, in which a vibration on
+    the order k has k cycles per revolution. Without a peak all but ``E_T`` and ``f_crossing`` is NaN.
+    """
+    rows = []
+    for point, order in itertools.product(points, chart_orders(config)):
+        about = row(point, order, config.analysis.peaks) | {
+            "E_T": contact_stiffness(point.case.E, point.case.K),
+            "f_crossing": crossing_speed(point, order),
+        }
+        rows.append(about)
+        if about["reason"]:
+            continue  # no peak to look at
+        index = int(np.flatnonzero(point.f_omega == about["f_peak"])[0])
+        cycles = order * point.measures["revolutions"][index]
+        about["lobes"] = int(point.measures["lobes"][index])
+        about |= {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][index] / cycles for loss in LOSSES}
+    return pd.DataFrame(rows, columns=EXPLANATION)
 
 
 def is_stiffened(peaks: pd.DataFrame) -> pd.Series:
@@ -39,7 +84,7 @@ def share(blade: ReducedBlade, theta: float, f_omega: float) -> float:
 
 
 def table(peaks: pd.DataFrame, blade: ReducedBlade) -> pd.DataFrame:
-    """Sum up how closely f_k follows each of `MODULI`, and how θ changes it, from ``chart_explanation.csv``.
+    """Sum up how closely f_k follows each of `MODULI`, and how θ changes it, from `peaks` of `explanation`.
 
     A row per order and θ: ``coatings``, the number of those in `is_stiffened`, to which the other columns
     refer; ``below_crossing``, the number of the others; for each of `MODULI` the rank correlation

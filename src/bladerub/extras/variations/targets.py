@@ -190,9 +190,7 @@ def _over_hardening(evidence: Evidence, reduce: Callable[[np.ndarray], float]) -
     peaks = _modulus_peaks(evidence).sort_values("K")
     peaks = peaks[peaks.E > STIFFENING_FROM]
     values = [reduce(group.f4.to_numpy()) for _, group in peaks.groupby("E") if len(group) >= 2]
-    if not values:
-        raise NotMeasurable(f"no E above {STIFFENING_FROM:g} with two K or more")
-    return float(min(values))
+    return float(min(values, default=np.nan))
 
 
 def _over_modulus(evidence: Evidence, column: str, reduce: Callable[[np.ndarray], float]) -> float:
@@ -200,9 +198,7 @@ def _over_modulus(evidence: Evidence, column: str, reduce: Callable[[np.ndarray]
     peaks = _modulus_peaks(evidence)
     peaks = peaks[(peaks.K <= SOFT_HARDENING) & (peaks.E >= SOFTEST)]
     values = [reduce(group[column].to_numpy()) for _, group in peaks.groupby("K") if len(group) >= 2]
-    if not values:
-        raise NotMeasurable(f"no K up to {SOFT_HARDENING:g} with two E or more")
-    return float(max(values))
+    return float(max(values, default=np.nan))
 
 
 def _growth_at(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase) -> float:

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from bladerub import plugins
-from bladerub.extras.chart import check, choice, explanation, ridge, stiffening, table
+from bladerub.extras.chart import check, choice, ridge, stiffening, table
 from bladerub.extras.chart.point import read, write
 from bladerub.extras.chart.settings import Limits
 from bladerub.io.tables import described_columns, entry
@@ -46,7 +46,7 @@ def test_a_row_sums_up_a_cell_which_comes_back_from_its_file(config, make_point,
 def test_a_chart_without_any_peak_has_tables(config, chart):
     nothing = np.full_like(chart[0].spectrum_amplitude, np.nan)
     unbounded = [replace(point, spectrum_amplitude=nothing) for point in chart]
-    ridges, peaks = ridge.table(config, unbounded), explanation.table(config, unbounded)
+    ridges, peaks = ridge.table(config, unbounded), stiffening.explanation(config, unbounded)
     assert list(ridge.summary(ridges).columns) == ridge.SUMMARY
     assert (len(ridges), len(peaks), peaks.amplitude.count()) == (0, 2 * len(chart), 0)
     ridges = ridge.table(config, [chart[0], *unbounded[1:]])
@@ -70,7 +70,7 @@ def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K_and_its_explanation_c
     assert (of_order.K_shift == 1).all()
     assert (of_order.height_lost == 0).all()  # the median: two ridge points of three lie on even speeds
     assert set(found.columns) <= described_columns(*plugins.files("columns.csv")).keys()
-    found = explanation.table(config, chart).set_index(["E", "K", "order"])
+    found = stiffening.explanation(config, chart).set_index(["E", "K", "order"])
     assert found.wear_per_cycle[1.0, 1.0, 4] == pytest.approx(240 / (20 * 4))
     assert found.wear_per_cycle[1.0, 1.0, 6] == pytest.approx(240 / (20 * 6))
     assert found.E_T[1.0, 1.0, 4] == pytest.approx(0.5)
