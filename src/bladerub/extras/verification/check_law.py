@@ -1,7 +1,6 @@
 """``bladerub check-law``: whether a law of the elements does what a law must."""
 
 import argparse
-from dataclasses import asdict
 from typing import Any
 
 from bladerub.cli import inputs
@@ -50,7 +49,7 @@ def check_law(options: argparse.Namespace) -> int:
     coatings = [run_spec(config, case, 0.2).coating for case in (softest, stiffest, cases[len(cases) // 2])]
     report = check(law, coatings, options.seed)
     figures = {"law": law.label, "histories": report.histories}
-    figures["problems"] = [asdict(problem) for problem in report.problems]
+    figures["problems"] = [{"what": what, "where": place} for what, place in report.problems.items()]
     inputs.show(options, figures, _in_words)
     return 1 if report.problems else 0
 

@@ -14,7 +14,7 @@
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
@@ -41,57 +41,15 @@ _SHALLOW, _DEEP = 1e-4, 0.3  # range of the deepest points, layer thicknesses
 _ROUNDING = 1e-9
 
 
-@dataclass(frozen=True)
-class LawProblem:
-    """What is wrong with a law: in few words, and where it was found."""
-
-    what: str
-    where: str
-
-
-@dataclass(frozen=True)
 class LawReport:
-    """Outcome of a check: histories that the law was put to, and its problems, each once."""
-
-    histories: int
-    problems: tuple[LawProblem, ...]
-
-
-def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> LawReport:
-    """Press elements of `coatings` by a law along random histories.
-
-    All coatings have a layer; their own law does not count. Elements that wear off begin unworn. The
-    histories are the same for the same `seed`. A law that is right has no problems; what it raises is a
-    problem, not an error.
-    """
-    rng, log, histories = np.random.default_rng(seed), _ProblemLog(), 0
-    try:
-        module = module_of(law)
-        for coating in coatings:
-            for time_step in TIME_STEPS:
-                specimen = replace(coating, element_law=law)
-                with np.errstate(all="ignore"), bounded("one of its functions", LONGEST_CHECK):
-                    _follow(module, specimen, time_step, rng, log)
-                histories += HISTORIES
-            if hasattr(module, "strength"):
-                with bounded("strength", LONGEST_CHECK):
-                    _heat(module, replace(coating, element_law=law), log)
-        if not log.problems:
-            compile_kernel(law=law)
-    except Exception as error:  # whatever the law, or the compiler of it, may raise
-        first_line = str(error).strip().partition("\n")[0]
-        kind = "" if isinstance(error, BadInput) else f"{type(error).__name__}: "
-        log.add("it cannot be run", f"{kind}{first_line}")
-    return LawReport(histories, tuple(LawProblem(*problem) for problem in log.problems.items()))
-
-
-class _ProblemLog:
-    """The problems so far: the first place where each was found."""
+    """Outcome of a check: histories that the law was put to, and the first place of each of its problems."""
 
     def __init__(self):
+        self.histories = 0
         self.problems: dict[str, str] = {}
 
     def add(self, what: str, place: str) -> None:
+        """Note a problem and where it was found."""
         self.problems.setdefault(what, place)
 
     def unless(self, condition: np.ndarray, what: str, **values: np.ndarray) -> None:
@@ -105,6 +63,33 @@ class _ProblemLog:
             self.add(what, ", ".join(name.replace("_", " ") for name in readings))
 
 
+def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> LawReport:
+    """Press elements of `coatings` by a law along random histories.
+
+    All coatings have a layer; their own law does not count. Elements that wear off begin unworn. The
+    histories are the same for the same `seed`. A law that is right has no problems; what it raises is a
+    problem, not an error.
+    """
+    rng, log = np.random.default_rng(seed), LawReport()
+    try:
+        module = module_of(law)
+        for specimen in (replace(coating, element_law=law) for coating in coatings):
+            for time_step in TIME_STEPS:
+                with np.errstate(all="ignore"), bounded("one of its functions", LONGEST_CHECK):
+                    _follow(module, specimen, time_step, rng, log)
+                log.histories += HISTORIES
+            if hasattr(module, "strength"):
+                with bounded("strength", LONGEST_CHECK):
+                    _heat(module, specimen, log)
+        if not log.problems:
+            compile_kernel(law=law)
+    except Exception as error:  # whatever the law, or the compiler of it, may raise
+        first_line = str(error).strip().partition("\n")[0]
+        kind = "" if isinstance(error, BadInput) else f"{type(error).__name__}: "
+        log.add("it cannot be run", f"{kind}{first_line}")
+    return log
+
+
 def _paths(thickness: float, rng: np.random.Generator) -> np.ndarray:
     """Draw depths below the unworn surface (m): straight between corners, out of contact at both ends."""
     deepest = thickness * np.exp(rng.uniform(np.log(_SHALLOW), np.log(_DEEP), HISTORIES))
@@ -115,7 +100,7 @@ def _paths(thickness: float, rng: np.random.Generator) -> np.ndarray:
 
 
 def _follow(
-    law: ModuleType, coating: Coating, time_step: float, rng: np.random.Generator, log: _ProblemLog
+    law: ModuleType, coating: Coating, time_step: float, rng: np.random.Generator, log: LawReport
 ) -> None:
     """Press elements along histories and look at each step."""
     element = law.Element(*element_parameters(coating, np.array([_AREA]), time_step)[:, 0])
@@ -154,22 +139,15 @@ def _follow(
         if (step + 1) % _STEPS == 0:
             missing, allowed = work - stored - dissipated, ENERGY * exchanged + unsure
             energies = {"work": work, "stored": stored, "dissipated": dissipated}
-            log.unless(
-                missing <= allowed,
-                "energy is lost: some of the work is neither stored nor dissipated",
-                **energies,
-            )
-            log.unless(
-                missing >= -allowed,
-                "energy is created: more is stored and dissipated than the work",
-                **energies,
-            )
-            log.unless(
-                work >= -allowed, "energy is created: a cycle gives back more than it takes", **energies
-            )
+            for is_right, what in (
+                (missing <= allowed, "energy is lost: some of the work is neither stored nor dissipated"),
+                (missing >= -allowed, "energy is created: more is stored and dissipated than the work"),
+                (work >= -allowed, "energy is created: a cycle gives back more than it takes"),
+            ):
+                log.unless(is_right, what, **energies)
 
 
-def _heat(law: ModuleType, coating: Coating, log: _ProblemLog) -> None:
+def _heat(law: ModuleType, coating: Coating, log: LawReport) -> None:
     """Look at the strength over the temperature."""
     rise = np.concatenate([[0.0], np.geomspace(1e-2, 1e4, 600)])
     strength = np.broadcast_to(law.strength(coating, rise), rise.shape)
@@ -180,7 +158,7 @@ def _heat(law: ModuleType, coating: Coating, log: _ProblemLog) -> None:
         log.add(what, f"temperature rise {rise[index]:.4g}, strength {strength[index]:.4g}")
 
 
-def _look(law, element, depth, wear, force, increment, rng, log: _ProblemLog) -> None:
+def _look(law, element, depth, wear, force, increment, rng, log: LawReport) -> None:
     """Look at force and wear at other depths than those of a step."""
     scale = np.abs(depth) + wear
     small = _ROUNDING * element.elastic * scale
@@ -209,19 +187,17 @@ def _look(law, element, depth, wear, force, increment, rng, log: _ProblemLog) ->
         above, below = (law.return_mapping(element, depth + sign * step, wear)[0] for sign in (1, -1))
         return above, below
 
-    what, named = (
-        "tangent is not the derivative of the force, as far as it says",
-        values | {"stiffness": slope},
-    )
+    what = "tangent is not the derivative of the force, as far as it says"
+    values["stiffness"] = slope
     for part in (0.5, 0.99):
         step = np.minimum(part * linear, scale)
         wide = step > 1e-6 * scale  # else rounding would count
         above, below = forces(step)
         error = np.abs(above - below - 2 * step * slope)
-        log.unless(~wide | (error <= 1e-6 * element.elastic * step + small), what, **named, over=step)
+        log.unless(~wide | (error <= 1e-6 * element.elastic * step + small), what, **values, over=step)
     step = 1e-5 * scale
     above, below = forces(step)
     ahead, behind = (above - force) / step, (force - below) / step
     margin = 1e-2 * np.maximum(np.abs(ahead), np.abs(behind)) + small / step
     between = (slope >= np.minimum(ahead, behind) - margin) & (slope <= np.maximum(ahead, behind) + margin)
-    log.unless((linear > step) | (step == 0) | between, what, **named, over=linear)
+    log.unless((linear > step) | (step == 0) | between, what, **values, over=linear)
