@@ -21,11 +21,11 @@ def test_draws_are_those_of_their_number_whatever_the_others_and_a_plan_may_have
     assert runs[0].n_blades == 4
     assert len(runs) == plan.draws[name]
     assert len({run.determinants for run in runs}) == len(runs)
-    twice = Combination(CASE, 0.346, 4, 1e-4, 0.005).row(plan.seed + 7)
+    twice = plan.row(Combination(CASE, 0.346, 4, 1e-4, 0.005), 7)
     for one, other in zip(runs[7].row.blades, twice.blades, strict=True):
         assert other.length == pytest.approx(2 * one.length)
         assert other.frequency == one.frequency
-    assert Combination(CASE, 0.346, 4, coupling=0.01).row(1).disk is not None
+    assert plan.row(Combination(CASE, 0.346, 4, coupling=0.01), 0).disk is not None
     assert runs[0].row.disk is None
     text = (ROOT / "config" / "rotor.yaml").read_text()
     assert "length_scatter: [5.0e-5]" in text

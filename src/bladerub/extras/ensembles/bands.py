@@ -94,15 +94,10 @@ def refined(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> list[C
 
 def _with(maps: Sequence[CoatingMap], runs: Sequence[tuple[Ensemble, CoatingMap]]) -> list[CoatingMap]:
     """Return `maps` with the `runs` of ensembles in place of their own."""
-    drawn = {ensemble.refined.case: (ensemble, values) for ensemble, values in runs}
-
-    def with_runs(coating: CoatingMap) -> CoatingMap:
-        if coating.case not in drawn:
-            return coating
-        ensemble, values = drawn[coating.case]
-        return ensemble.draw(coating, values)
-
-    return list(map(with_runs, maps))
+    coatings = {coating.case: coating for coating in maps}
+    for ensemble, drawn in runs:
+        coatings[drawn.case] = ensemble.draw(coatings[drawn.case], drawn)
+    return list(coatings.values())
 
 
 def of_peaks(config: Config, maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> pd.DataFrame:

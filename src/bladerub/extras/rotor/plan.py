@@ -42,11 +42,6 @@ class Combination:
         """The single nominal blade on this coating at this speed."""
         return Combination(self.case, self.f_omega, 1)
 
-    def row(self, seed: int) -> Row:
-        """Draw a row."""
-        scatters = {name: getattr(self, name) for name in ("length_scatter", "frequency_scatter")}
-        return drawn(self.blades, seed, self.coupling, **scatters)
-
 
 @dataclass(frozen=True)
 class Patterns:
@@ -74,7 +69,8 @@ class Plan:
 
     def row(self, combination: Combination, draw: int) -> Row:
         """Draw the blades of one row of a combination."""
-        return combination.row(self.seed + draw)
+        scatters = {name: getattr(combination, name) for name in ("length_scatter", "frequency_scatter")}
+        return drawn(combination.blades, self.seed + draw, combination.coupling, **scatters)
 
     def runs(self, config: Config, name: str) -> CoatingPlan:
         """Plan the draws of one combination as runs of the study `config`; growth is not followed further."""
@@ -103,8 +99,8 @@ def read_plan(path: str | Path, config: Config) -> Plan:
     """
     located = plans.read_plan(path, RotorPlan, study=config)
     plan = RotorPlan.model_validate(located.plain())
-    sections = {"groups": plan.groups, "sweeps": plan.sweeps or {}}
-    sections["patterns.groups"] = plan.patterns.groups if plan.patterns else {}
+    followed_groups = plan.patterns.groups if plan.patterns else {}
+    sections = {"groups": plan.groups, "sweeps": plan.sweeps or {}, "patterns.groups": followed_groups}
     pairs: dict[str, list[tuple[Combination, int]]] = {}
     by_name: dict[str, Combination] = {}
     for section, groups in sections.items():
