@@ -15,13 +15,6 @@ from bladerub.workflow import outputs
 
 config, model = typed(snakemake.params.config), snakemake.input.blade
 case, blade = case_from_name(config, snakemake.wildcards.coating), read_reduced_blade(model)
-coating, _ = map_coating(
-    config,
-    case,
-    blade,
-    blade_digest(model),
-    snakemake.params.folder,
-    report=job.log,
-)
+coating, _ = map_coating(config, case, blade, blade_digest(model), snakemake.params.folder, report=job.log)
 numbers = of_coating(config, coating, blade)
 outputs.save(snakemake, origin=provenance(snakemake.params.config), numbers=numbers)

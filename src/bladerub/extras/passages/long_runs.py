@@ -65,11 +65,7 @@ def chosen(config: Config, coating: CoatingMap) -> dict[float, str]:
 
 
 def make(
-    config: Config,
-    coating: CoatingMap,
-    blade: ReducedBlade,
-    path: str | Path,
-    report: Callable[[str], None],
+    config: Config, coating: CoatingMap, blade: ReducedBlade, path: str | Path, report: Callable[[str], None]
 ) -> None:
     """Compute the long runs of a coating, of ``long_runs.revolutions``, and write them to the file `path`.
 

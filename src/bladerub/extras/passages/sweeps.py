@@ -64,12 +64,7 @@ class SpeedSweep:
 
 
 def make(
-    config: Config,
-    case: CoatingCase,
-    blade: ReducedBlade,
-    direction: str,
-    rate: float,
-    path: str | Path,
+    config: Config, case: CoatingCase, blade: ReducedBlade, direction: str, rate: float, path: str | Path
 ) -> SweepResult:
     """Compute one sweep, ``up`` or ``down`` at `rate` (1/s), and write it to the HDF5 file `path`.
 

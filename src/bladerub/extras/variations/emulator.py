@@ -46,10 +46,7 @@ class Emulator:
     """
 
     def __init__(
-        self,
-        positions: np.ndarray,
-        values: np.ndarray,
-        covariance: openturns.CovarianceModel | None = None,
+        self, positions: np.ndarray, values: np.ndarray, covariance: openturns.CovarianceModel | None = None
     ):
         self.positions, self.values = positions, values
         self._mean, self._scale = float(values.mean()), float(values.std())
