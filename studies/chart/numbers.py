@@ -1,11 +1,8 @@
 """Numbers of studies/chart/README.md."""
 
-import pandas as pd
-
+from bladerub.extras.chart.choice import broken_limits
+from bladerub.extras.chart.settings import Limits
 from docs.numbers import decimals, fixed, headings, mm, peak, percent, row, rows, span, table
-
-_LIMITS = {"peak": 2e-3, "deepest_wear": 1e-3, "divergent_share": 0}
-"""Limits of the config: displacement and depth in metres, share of the speeds."""
 
 
 def numbers(tables):
@@ -73,8 +70,7 @@ def _highest(coatings, quantity):
 
 
 def _safe(coatings):
-    within = pd.DataFrame({quantity: coatings[quantity] <= limit for quantity, limit in _LIMITS.items()})
-    return within.all(axis=1).sum()
+    return (~broken_limits(coatings, Limits()).any(axis=1)).sum()
 
 
 def _ridge(explanation):

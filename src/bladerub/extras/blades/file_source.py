@@ -6,7 +6,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from bladerub.blade import geometry
-from bladerub.blade.model import N_INTERFACE, n_interface
+from bladerub.blade.model import n_interface
 from bladerub.extras.blades import deck, origin
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.settings import Source
@@ -62,7 +62,7 @@ def _names(source: origin.Source) -> list[str]:
     return [source.file.name, *(deck.included(source.file) if is_deck else ())]
 
 
-def meshed(blade: Blade, n_nodes: int = N_INTERFACE) -> "MeshedBlade":
+def meshed(blade: Blade, n_nodes: int) -> "MeshedBlade":
     """Read the blade, and mesh a table; BadInput if it cannot be used, or is not of the length in `blade`."""
     from bladerub.extras.blades.importing import check_length, import_blade
 

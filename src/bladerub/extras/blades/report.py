@@ -1,6 +1,6 @@
 """The figures of an imported blade, and warnings of what is probably wrong with it."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -118,7 +118,6 @@ def _of_blade(
     errors = errors_by_mode(table)
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     rpm = 60 * built.reduced.f1_hz
-    crossings = _crossing_speeds(built.reduced, ORDERS)
     return {
         "nodes": len(points),
         "unknowns": 3 * (len(points) - layout.mesh.root.size),
@@ -130,7 +129,8 @@ def _of_blade(
         "tip_stagger_degrees": _stagger(built.reduced),
         "tip_lean": tip_lean(built.reduced).tolist(),
         "crossings": [
-            {"order": order, "f_omega": f_omega, "rpm": f_omega * rpm} for order, f_omega in crossings.items()
+            {"order": order, "f_omega": f_omega, "rpm": f_omega * rpm}
+            for order, f_omega in _crossings(built.reduced)
         ],
         "nominal_speed": nominal_speed,
         "nominal_f_omega": nominal_speed and nominal_speed / rpm,
@@ -262,18 +262,13 @@ def _warn_of_matrices(
         yield "the error of eq. (2) is not known at the three speeds of its fit: add stiffness_at_<f_omega>"
 
 
-def _crossing_speeds(blade: ReducedBlade, orders: Iterable[int]) -> dict[int, float]:
-    """Find the speeds (normalised) at which engine orders cross the first frequency, by order.
-
-    Orders that do not cross it up to ``f_omega_max`` are left out.
-    """
+def _crossings(blade: ReducedBlade) -> Iterator[tuple[int, float]]:
+    """Find the normalised speeds at which `ORDERS` cross the first frequency up to ``f_omega_max``."""
 
     def above(f_omega: float, order: int) -> float:
         return order * f_omega - float(reduced_frequencies(blade, f_omega, 1)[0]) / blade.f1_hz
 
     fastest = blade.f_omega_max
-    return {
-        order: float(scipy.optimize.brentq(above, 0.0, fastest, args=(order,), xtol=1e-9))
-        for order in orders
-        if above(fastest, order) >= 0
-    }
+    for order in ORDERS:
+        if above(fastest, order) >= 0:
+            yield order, float(scipy.optimize.brentq(above, 0.0, fastest, args=(order,), xtol=1e-9))
