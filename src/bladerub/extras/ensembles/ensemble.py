@@ -116,15 +116,13 @@ def plan(config: Config, coating: CoatingMap) -> list[CoatingPlan]:
     followed = set(judged(config, coating).tolist())
     for f in chosen(config, coating).tolist():
         spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings.members)
-        members = [replace(spec, initial_displacement=start) for start in drawn.tolist()]
-        files = [f"{speed_name(f)}_{number}.h5" for number in range(1, len(members) + 1)]
-        members.append(refined(spec))
-        files.append(f"{speed_name(f)}_refined.h5")
+        specs = {
+            f"{speed_name(f)}_{number}.h5": replace(spec, initial_displacement=start)
+            for number, start in enumerate(drawn.tolist(), 1)
+        }
+        specs[f"{speed_name(f)}_refined.h5"] = refined(spec)
         runs.append(
-            [
-                planned_run(config, *spec_and_file, False, row, follow=f in followed)
-                for spec_and_file in zip(members, files, strict=True)
-            ]
+            [planned_run(config, run, file, False, row, follow=f in followed) for file, run in specs.items()]
         )
     return [CoatingPlan(case, member) for member in zip(*runs, strict=True)]
 
