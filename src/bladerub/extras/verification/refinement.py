@@ -47,22 +47,29 @@ CASES = [
 _COMPARED = ("f_peak", "amplitude", "amplitude_change", "volume_change", "wear_difference", "status")
 
 
-@dataclass
-class Response:
-    """Response of `case` on an engine order; each run of the study is simulated after a `change`."""
+class Model(NamedTuple):
+    """A model of the runs that is compared with others."""
 
     blade: ReducedBlade
+    wear: Callable[[RunResult], np.ndarray]  # mean wear of a run, m, of one shape in all models
+    change: Callable[[RunSpec], RunSpec] = lambda spec: spec
+
+
+@dataclass
+class Response:
+    """Response of `case` on an engine order by a model, whose runs are made when they are asked for."""
+
+    model: Model
     config: Config
     case: CoatingCase
     order: float
-    change: Callable[[RunSpec], RunSpec]
     runs: dict[float, RunResult] = field(default_factory=dict)  # by speed
 
     def run(self, f_omega: float) -> RunResult:
         """Return the run at `f_omega`."""
         if f_omega not in self.runs:
-            spec = self.change(run_spec(self.config, self.case, f_omega))
-            self.runs[f_omega] = simulate(self.blade, spec)
+            spec = self.model.change(run_spec(self.config, self.case, f_omega))
+            self.runs[f_omega] = simulate(self.model.blade, spec)
         return self.runs[f_omega]
 
     def amplitude(self, f_omega: float) -> float:
@@ -79,14 +86,6 @@ class Response:
             if best == index:
                 return grid[index]
             index = best
-
-
-class Model(NamedTuple):
-    """A model of the runs that is compared with others."""
-
-    blade: ReducedBlade
-    wear: Callable[[RunResult], np.ndarray]  # mean wear of a run, m, of one shape in all models
-    change: Callable[[RunSpec], RunSpec] = lambda spec: spec
 
 
 def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
@@ -136,7 +135,7 @@ def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd
     for case, peak in listed(peaks):
         start = float(peak.f_peak)
         for number, model in models.items():
-            response = Response(model.blade, config, case, peak.order, model.change)
+            response = Response(model, config, case, peak.order)
             wear, speed = model.wear(response.run(start)), response.top(start)
             amplitude = response.amplitude(speed)
             if number == next(iter(models)):
