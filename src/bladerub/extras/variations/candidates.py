@@ -11,9 +11,7 @@ from bladerub.extras.variations.waves import implausibility, with_values
 from bladerub.extras.variations.waves import read as read_positions
 from bladerub.study.findings.claim import YES, claim_of
 
-_GREATEST = (
-    3.0  # implausibility beyond which a target is as bad as it gets: one lost target is not worth five
-)
+_GREATEST = 3.0  # implausibility from which a target is lost: one that is lost is not worth five
 
 OWN = 0
 """Number of the set that has the study's own values."""
