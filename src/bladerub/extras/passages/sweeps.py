@@ -1,7 +1,7 @@
 """Speed sweeps: run-up and run-down at a constant rate, compared with the runs at constant speed."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 import numpy as np
@@ -119,14 +119,9 @@ def _spectra(result: SweepResult, window: int, max_order: float) -> tuple[np.nda
 def read(path: str | Path) -> SpeedSweep:
     """Read a sweep written by `make`; raises `OSError`, naming the file, if it is missing or damaged."""
     data, about = hdf5.read(path)
-    arrays = ("speed", "revolution_amplitude", "f_omega", "C1", "spectrum_order", "spectrum_amplitude")
     try:
-        return SpeedSweep(
-            case=CoatingCase.described(about),
-            max_wear=float(data["wear"].max()),
-            **{name: about[name] for name in _DESCRIBED},
-            **{name: data[name] for name in arrays},
-        )
+        values = about | data | {"case": CoatingCase.described(about), "max_wear": float(data["wear"].max())}
+        return SpeedSweep(**{field.name: values[field.name] for field in fields(SpeedSweep)})
     except KeyError as error:
         raise DamagedFile(f"{path}: not a speed sweep, {error} is missing") from error
 
