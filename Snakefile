@@ -43,9 +43,7 @@ onstart:
     with bladerub.io.errors.exit_on_error():
         invocation.start(workflow)
     for forecast in plugins.loaded("FORECASTS").values():
-        forecast.announce(
-            STUDY, workflow, workflow.resource_settings.cores, plan_of
-        )
+        forecast.announce(STUDY, workflow, workflow.resource_settings.cores, plan_of)
 
 
 onsuccess:

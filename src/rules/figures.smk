@@ -32,9 +32,7 @@ SCALES = {
     "engine": {"nominal_speed": config["figures"].get("nominal_speed")},
 }
 SCALED = {"dpi": DPI, "scales": SCALES}
-SPECTRUM = SCALED | {
-    key: config["figures"][key] for key in ("max_frequency", "amplitude_range")
-}
+SPECTRUM = SCALED | {key: config["figures"][key] for key in ("max_frequency", "amplitude_range")}
 
 # Speeds at which the displacement of both is kept: the paper's two, and those where this blade has its peaks
 BOTH = [
@@ -79,9 +77,7 @@ rule casing:
         "drawing"
     params:
         dpi=DPI,
-        casing=lambda wildcards: part_of_run(
-            CoatingCase.rigid(wildcards.casing, 0.0), "casing"
-        )(wildcards),
+        casing=lambda wildcards: part_of_run(CoatingCase.rigid(wildcards.casing, 0.0), "casing")(wildcards),
     script:
         "../scripts/casing.py"
 
@@ -139,9 +135,7 @@ class Figure(NamedTuple):
 
 def spectrum_of(case, category):
     inputs = {**BLADE, "map": map_of(case), "drawing": rules.spectrum.input.drawing}
-    return Figure(
-        category, "spectrum", inputs, SPECTRUM, in_study(case), with_data=False
-    )
+    return Figure(category, "spectrum", inputs, SPECTRUM, in_study(case), with_data=False)
 
 
 SINGLE = {
@@ -225,8 +219,7 @@ SINGLE = {
             "analysing": files_behind("study.maps", "study.peaks"),
             "drawing": rules.spectrum.input.drawing,
         },
-        SPECTRUM
-        | {"peaks": lambda wildcards: peak_settings(STUDY, SOFT.casing).plain()},
+        SPECTRUM | {"peaks": lambda wildcards: peak_settings(STUDY, SOFT.casing).plain()},
         in_study(SOFT),
     ),
     "fig15_spectrum_theta0": spectrum_of(STRAIGHT, "Angle of the elements"),
@@ -239,8 +232,7 @@ SINGLE = {
             "drawing": rules.casing.input.drawing,
         },
         {"dpi": DPI, "speeds": [TILTED_SPEED, STRAIGHT_SPEED, *OWN]},
-        in_study(STRAIGHT, TILTED)
-        and {TILTED_SPEED, STRAIGHT_SPEED} <= set(speeds(STUDY)),
+        in_study(STRAIGHT, TILTED) and {TILTED_SPEED, STRAIGHT_SPEED} <= set(speeds(STUDY)),
     ),
 }
 for name, figure in SINGLE.items():
@@ -299,19 +291,14 @@ rule histograms:
 HISTORIES = {
     {TILTED_SPEED: "fig17_history_0190", STRAIGHT_SPEED: "fig18_history_0197"}.get(
         f_omega, f"history_{speed_name(f_omega)}"
-    ): [
-        f"{RESULTS}/runs/{case.name}/{speed_name(f_omega)}.h5"
-        for case in (STRAIGHT, TILTED)
-    ]
+    ): [f"{RESULTS}/runs/{case.name}/{speed_name(f_omega)}.h5" for case in (STRAIGHT, TILTED)]
     for f_omega in BOTH
 }
 
 
 rule histories:
     input:
-        manifests=expand(
-            rules.coating.output.manifest, coating=[STRAIGHT.name, TILTED.name]
-        ),
+        manifests=expand(rules.coating.output.manifest, coating=[STRAIGHT.name, TILTED.name]),
         drawing=files_behind("plots.history"),
     output:
         **drawn_together(HISTORIES, "Angle of the elements"),
@@ -330,10 +317,7 @@ rule histories:
 
 
 WITH_MODULI = any(
-    case.casing == "2nd"
-    and case.theta == 0
-    and case.law == "theta"
-    and not case.variant
+    case.casing == "2nd" and case.theta == 0 and case.law == "theta" and not case.variant
     for case in coating_cases(STUDY)
 ) and {4, 6} <= set(peak_orders(STUDY, "2nd"))
 # Spectrum and wear map of each coating are drawn on casings that no figure of the paper shows, and in a small study of
@@ -354,9 +338,7 @@ FIGURES += [expand(rules.spectrum.output, coating=OTHER)]
 # On a blade from another program, the wear map of every coating that can wear, and every casing
 ON_OTHER_BLADE = "source" in config["blade"]
 WEARING = [
-    case.name
-    for case in coating_cases(STUDY)
-    if not case.is_rigid and (ON_OTHER_BLADE or case.name in OTHER)
+    case.name for case in coating_cases(STUDY) if not case.is_rigid and (ON_OTHER_BLADE or case.name in OTHER)
 ]
 FIGURES += [expand(rules.wear_map.output, coating=WEARING)]
 CASINGS = used_casings(STUDY) if ON_OTHER_BLADE else []

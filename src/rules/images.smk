@@ -3,9 +3,7 @@
 from pathlib import Path
 
 PICTURES["images"] = {
-    f"docs/images/{Path(path).name}": Picture(
-        path, 12 if "history" in Path(path).name else 48
-    )
+    f"docs/images/{Path(path).name}": Picture(path, 12 if "history" in Path(path).name else 48)
     for output in FIGURES
     for path in output
     if path.endswith(".png") and Path(path).parent == Path(PLOTS)

@@ -32,9 +32,7 @@ def shown(path, name, category, title=None):
             title = title or next(lines).strip()
     except FileNotFoundError as error:
         where = f"studies/<its study>/report/{name}.rst, or src/report/{name}.rst for the core"
-        raise WorkflowError(
-            f"figure {name}: has no caption; write {where}, the title first"
-        ) from error
+        raise WorkflowError(f"figure {name}: has no caption; write {where}, the title first") from error
     return report(
         path,
         caption=caption,
@@ -50,9 +48,7 @@ def script_of(name):
 
 def described(**tables):
     """Tables by name, each with the description of its columns that is written next to it."""
-    descriptions = {
-        f"{name}_description": f"{path}-metadata.json" for name, path in tables.items()
-    }
+    descriptions = {f"{name}_description": f"{path}-metadata.json" for name, path in tables.items()}
     return tables | descriptions
 
 
@@ -70,9 +66,7 @@ def drawn(name, category, with_data=False):
 def drawn_together(names, category, with_data=True):
     """The files of figures that one job draws, each by the name of its figure and its kind."""
     return {
-        f"{name}_{kind}": file
-        for name in names
-        for kind, file in drawn(name, category, with_data).items()
+        f"{name}_{kind}": file for name in names for kind, file in drawn(name, category, with_data).items()
     }
 
 

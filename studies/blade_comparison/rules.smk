@@ -7,14 +7,8 @@ REFERENCE = "results"
 
 def common_maps(wildcards):
     """Maps of the coatings that the reference has too, first all of this study, then all of the reference."""
-    names = [
-        case.name
-        for case in coating_cases(STUDY)
-        if Path(f"{REFERENCE}/maps/{case.name}.h5").exists()
-    ]
-    return [
-        f"{folder}/maps/{name}.h5" for folder in (RESULTS, REFERENCE) for name in names
-    ]
+    names = [case.name for case in coating_cases(STUDY) if Path(f"{REFERENCE}/maps/{case.name}.h5").exists()]
+    return [f"{folder}/maps/{name}.h5" for folder in (RESULTS, REFERENCE) for name in names]
 
 
 rule blade_comparison:

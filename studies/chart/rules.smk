@@ -8,9 +8,7 @@ from bladerub.extras.chart.point import PointRow
 from bladerub.study.grid import modulus_unit
 
 CHART_ORDERS = chart_orders(STUDY)
-PEAK_CAPTIONS = {
-    f"{name}{order}": f"chart_{name}k" for order in CHART_ORDERS for name in "Yf"
-}
+PEAK_CAPTIONS = {f"{name}{order}": f"chart_{name}k" for order in CHART_ORDERS for name in "Yf"}
 CHARTED = [*PEAK_CAPTIONS, "peak", "worn_volume", "divergent_share"]
 
 
@@ -149,16 +147,10 @@ rule chart_choice:
     input:
         tables=chart_with_stress,
         analysing=files_behind("extras.chart.choice", "extras.chart.stress"),
-        drawing=files_behind(
-            "extras.plots.chart_moduli", "extras.plots.chart_pareto", "plots.titles"
-        ),
+        drawing=files_behind("extras.plots.chart_moduli", "extras.plots.chart_pareto", "plots.titles"),
     output:
-        **drawn_together(
-            ["chart_safe", "chart_pareto"], "8. Choice of a coating", with_data=False
-        ),
-        **described(
-            pareto=f"{TABLES}/chart_pareto.csv", choice=f"{TABLES}/chart_choice.csv"
-        ),
+        **drawn_together(["chart_safe", "chart_pareto"], "8. Choice of a coating", with_data=False),
+        **described(pareto=f"{TABLES}/chart_pareto.csv", choice=f"{TABLES}/chart_choice.csv"),
     log:
         f"{RESULTS}/logs/chart_choice.log",
     params:

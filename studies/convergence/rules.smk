@@ -87,6 +87,4 @@ rule steps:
         "scripts/steps.py"
 
 
-PICTURES["steps_image"] = {
-    "studies/convergence/images/steps.png": Picture(rules.steps.output.png, 24)
-}
+PICTURES["steps_image"] = {"studies/convergence/images/steps.png": Picture(rules.steps.output.png, 24)}

@@ -5,10 +5,7 @@
 rule config_reference:
     input:
         config="config/config.yaml",
-        settings=[
-            path.relative_to(ROOT).as_posix()
-            for path in ROOT.glob("src/bladerub/**/*settings.py")
-        ],
+        settings=[path.relative_to(ROOT).as_posix() for path in ROOT.glob("src/bladerub/**/*settings.py")],
         page="docs/config_keys.py",
         writing=files_behind("config.keys", "settings.study"),
     output:

@@ -36,11 +36,7 @@ rule explorer:
             "modulus_unit": modulus_unit(STUDY),
         },
         nominal_speed=config["figures"].get("nominal_speed"),
-        configs=[
-            relpath(path)
-            for path in workflow.configfiles
-            if path != "config/config.yaml"
-        ],
+        configs=[relpath(path) for path in workflow.configfiles if path != "config/config.yaml"],
     script:
         "scripts/explorer.py"
 

@@ -19,9 +19,7 @@ def planned_sweep(wildcards):
     """All that determines a sweep but the blade: a changed one is a reason to run."""
     case = case_from_name(STUDY, wildcards.coating)
     with bladerub.io.errors.exit_on_error():
-        return asdict(
-            sweep_spec(STUDY, case, wildcards.direction, float(wildcards.rate))
-        )
+        return asdict(sweep_spec(STUDY, case, wildcards.direction, float(wildcards.rate)))
 
 
 rule sweeps:
@@ -32,11 +30,7 @@ rule sweeps:
         drawing=files_behind("extras.plots.sweeps", "plots.titles"),
     output:
         **drawn("sweeps", "6. Sweeps and long runs"),
-        **described(
-            table=shown(
-                f"{TABLES}/sweeps.csv", "sweeps_table", "6. Sweeps and long runs"
-            )
-        ),
+        **described(table=shown(f"{TABLES}/sweeps.csv", "sweeps_table", "6. Sweeps and long runs")),
     log:
         f"{RESULTS}/logs/sweeps.log",
     params:
@@ -51,9 +45,7 @@ rule sweep:
     input:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind(
-            "extras.passages.sweeps", "extras.passages.sweep_grid", "study.spectra"
-        ),
+        analysing=files_behind("extras.passages.sweeps", "extras.passages.sweep_grid", "study.spectra"),
     output:
         SWEEPS,
     log:
@@ -68,9 +60,7 @@ rule sweep:
         runtime=minutes(10),
     params:
         spec=planned_sweep,
-        spectra=[
-            config["analysis"][key] for key in ("spectrum_revolutions", "max_order")
-        ],
+        spectra=[config["analysis"][key] for key in ("spectrum_revolutions", "max_order")],
     script:
         "scripts/sweep.py"
 
@@ -82,11 +72,7 @@ rule long_runs:
         drawing=files_behind("extras.plots.long_runs", "plots.titles"),
     output:
         **drawn("long_runs", "6. Sweeps and long runs"),
-        **described(
-            table=shown(
-                f"{TABLES}/long_runs.csv", "long_runs_table", "6. Sweeps and long runs"
-            )
-        ),
+        **described(table=shown(f"{TABLES}/long_runs.csv", "long_runs_table", "6. Sweeps and long runs")),
     log:
         f"{RESULTS}/logs/long_runs.log",
     params:
@@ -101,9 +87,7 @@ rule long_coating:
         map=rules.coating.output.map,
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind(
-            "extras.passages.long_runs", "study.peaks", "study.growth"
-        ),
+        analysing=files_behind("extras.passages.long_runs", "study.peaks", "study.growth"),
     output:
         f"{RESULTS}/long_runs/{{coating}}.h5",
     log:

@@ -23,9 +23,7 @@ def rotor_runs(combination):
 
 def planned_rows(wildcards):
     """All that determines the rows but the blade: a changed one is a reason to run."""
-    return {
-        run.file: run.determinants for run in rotor_runs(wildcards.combination).runs
-    }
+    return {run.file: run.determinants for run in rotor_runs(wildcards.combination).runs}
 
 
 def rotor_minutes(wildcards, attempt):
@@ -69,9 +67,7 @@ rule rotor_tables:
         analysing=files_behind("extras.rotor.summary"),
     output:
         **described(
-            table=shown(
-                f"{TABLES}/rotor.csv", "rotor_table", "6. Sweeps and long runs"
-            ),
+            table=shown(f"{TABLES}/rotor.csv", "rotor_table", "6. Sweeps and long runs"),
             half=f"{TABLES}/rotor_half.csv",
             draws=f"{TABLES}/rotor_draws.csv",
         ),
@@ -94,9 +90,7 @@ rule rotor_patterns:
     output:
         **described(
             table=f"{TABLES}/rotor_patterns.csv",
-            drift=shown(
-                f"{TABLES}/rotor_drift.csv", "rotor_drift", "6. Sweeps and long runs"
-            ),
+            drift=shown(f"{TABLES}/rotor_drift.csv", "rotor_drift", "6. Sweeps and long runs"),
         ),
     log:
         f"{RESULTS}/logs/rotor_patterns.log",

@@ -67,8 +67,7 @@ def nlstep_numbers(wildcards):
     from bladerub.extras.rotor37.nlstep import CASES
 
     return [
-        f"{ROTOR37}/reference/nlstep/mu{friction:g}_{modes}_{steps}.csv"
-        for friction, modes, steps in CASES
+        f"{ROTOR37}/reference/nlstep/mu{friction:g}_{modes}_{steps}.csv" for friction, modes, steps in CASES
     ]
 
 
@@ -77,15 +76,10 @@ rule rotor37_nlstep_case:
     input:
         blade=f"{ROTOR37}/reference/blade/reduced_model.h5",
         computing=files_behind("extras.rotor37.nlstep"),
-        octave=[
-            f"src/bladerub/extras/rotor37/octave/{name}.m"
-            for name in ("CMS_ROM", "direct_contact")
-        ],
+        octave=[f"src/bladerub/extras/rotor37/octave/{name}.m" for name in ("CMS_ROM", "direct_contact")],
         program=nlstep_program,
     output:
-        **described(
-            table=f"{ROTOR37}/reference/nlstep/mu{{friction}}_{{modes}}_{{steps}}.csv"
-        ),
+        **described(table=f"{ROTOR37}/reference/nlstep/mu{{friction}}_{{modes}}_{{steps}}.csv"),
     log:
         f"{RESULTS}/logs/rotor37_nlstep/mu{{friction}}_{{modes}}_{{steps}}.log",
     benchmark:
@@ -135,9 +129,7 @@ rule rotor37:
     params:
         dpi=DPI,
         folder=ROTOR37,
-        plan=lambda wildcards: {
-            name: own.plain() for name, own in rotor37_plan().items()
-        },
+        plan=lambda wildcards: {name: own.plain() for name, own in rotor37_plan().items()},
     script:
         "scripts/rotor37.py"
 
@@ -205,9 +197,7 @@ rule rotor37_coating:
 
 
 PICTURES["rotor37_images"] = {
-    f"studies/rotor37/images/rotor37_{name}.png": Picture(
-        f"{ROTOR37}/figures/{name}.png", 12
-    )
+    f"studies/rotor37/images/rotor37_{name}.png": Picture(f"{ROTOR37}/figures/{name}.png", 12)
     for name in ("response", "direct", "spectrum_coated", "wear_straight")
 }
 
@@ -215,10 +205,7 @@ PICTURES["rotor37_images"] = {
 # The reference numbers of the repository, once they are computed anew
 rule rotor37_reference:
     input:
-        [
-            rules.rotor37.output[name]
-            for name in [*REFERENCE_TABLES, "history", "independent"]
-        ],
+        [rules.rotor37.output[name] for name in [*REFERENCE_TABLES, "history", "independent"]],
     log:
         f"{RESULTS}/logs/rotor37_reference.log",
     script:

@@ -2,9 +2,7 @@
 TIP_TURNS = "results/tip_turns"  # of config/tip_turns.yaml, whose rules make it
 
 PICTURES["tip_turns_images"] = {  # shown in pairs
-    f"studies/tip_turns/images/tip_turns_{name}.png": Picture(
-        f"{TIP_TURNS}/figures/{name}.png", 64, 2
-    )
+    f"studies/tip_turns/images/tip_turns_{name}.png": Picture(f"{TIP_TURNS}/figures/{name}.png", 64, 2)
     for name in (
         "fig08_spectrum_soft",
         "fig09_spectrum_critical",

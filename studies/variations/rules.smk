@@ -117,9 +117,7 @@ rule variation:
         blades=f"{RESULTS}/{{kind}}/blades",
         # only of a calibration are runs and maps kept
         folder=lambda wildcards: (
-            f"{RESULTS}/calibration/{wildcards.job}"
-            if wildcards.kind == "calibration"
-            else None
+            f"{RESULTS}/calibration/{wildcards.job}" if wildcards.kind == "calibration" else None
         ),
     script:
         "scripts/variation.py"
@@ -186,9 +184,7 @@ def of_sets(file, last=None):
 rule identification_wave:
     input:
         next_sets=lambda wildcards: (
-            []
-            if wildcards.wave == "1"
-            else f"{OF_SETS}/wave{int(wildcards.wave) - 1}/next_sets.csv"
+            [] if wildcards.wave == "1" else f"{OF_SETS}/wave{int(wildcards.wave) - 1}/next_sets.csv"
         ),
     output:
         **described(sets=f"{OF_SETS}/wave{{wave}}/sets.csv"),
@@ -268,13 +264,9 @@ rule identify:
         next_sets=lambda wildcards: of_waves("next_sets.csv"),
         predictions=lambda wildcards: of_waves("predictions.csv"),
         candidates=rules.identification_candidates.output.candidates,
-        judged=lambda wildcards: of_jobs(
-            "identification", "verdicts.csv", "candidates/"
-        ),
+        judged=lambda wildcards: of_jobs("identification", "verdicts.csv", "candidates/"),
         plan=PLANS["identification"],
-        summing=files_behind(
-            "extras.variations.identification", "extras.variations.candidates"
-        ),
+        summing=files_behind("extras.variations.identification", "extras.variations.candidates"),
         drawing=files_behind("extras.variations.figures", "plots.style"),
     output:
         **drawn("identification", "Claims"),
@@ -333,12 +325,8 @@ rule margins:
 if "source" not in config["blade"]:
     ADDED_TO_ALL["margins"] = rules.margins.output
 
-PICTURES["margins_image"] = {
-    "docs/images/margins.png": Picture(f"{PLOTS}/margins.png", 48)
-}
+PICTURES["margins_image"] = {"docs/images/margins.png": Picture(f"{PLOTS}/margins.png", 48)}
 PICTURES |= {
-    f"{name}_image": {
-        f"studies/variations/images/{name}.png": Picture(f"{PLOTS}/{name}.png", colours)
-    }
+    f"{name}_image": {f"studies/variations/images/{name}.png": Picture(f"{PLOTS}/{name}.png", colours)}
     for name, colours in (("robustness", 20), ("identification", 8))
 }
