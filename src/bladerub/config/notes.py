@@ -33,11 +33,11 @@ def notes(config: Config) -> list[str]:
 
 
 def _histories(config: Config) -> Iterator[str]:
-    cases, grid = set(coating_cases(config)), set(speeds(config))
+    cases, planned = set(coating_cases(config)), set(speeds(config))
     listed = [
         (listed_case(entry), round(entry.f_omega, SPEED_DECIMALS)) for entry in config.analysis.histories
     ]
-    lost = [f"{case.name}/{speed_name(f)}" for case, f in listed if case not in cases or f not in grid]
+    lost = [f"{case.name}/{speed_name(f)}" for case, f in listed if case not in cases or f not in planned]
     if lost:
         ellipsis = ", ..." if len(lost) > 1 else ""
         yield f"analysis.histories: {len(lost)} left out, not in this study ({lost[0]}{ellipsis})"

@@ -53,8 +53,10 @@ QUANTITIES = {
     for name, info in Quantities.model_fields.items()
 }
 """Types of them, for the keys of sections."""
-YoungModulus, PlasticModulus, Theta, Friction, *_ = QUANTITIES.values()
-*_, DampingRatio, LayerThickness, Interference, RunSpeed = QUANTITIES.values()
+YoungModulus, PlasticModulus = QUANTITIES["E"], QUANTITIES["K"]
+Theta, Friction = QUANTITIES["theta"], QUANTITIES["friction"]
+DampingRatio, RunSpeed = QUANTITIES["damping_ratio"], QUANTITIES["f_omega"]
+LayerThickness, Interference = QUANTITIES["layer_thickness"], QUANTITIES["interference"]
 
 CasingName = Annotated[
     str,
