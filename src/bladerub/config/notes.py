@@ -14,15 +14,6 @@ from bladerub.contact.casing import gap
 from bladerub.settings.study import Config
 from bladerub.settings.units import pressure_in_words
 from bladerub.study import grid
-from bladerub.study.grid import (
-    SPEED_DECIMALS,
-    UNSCALED,
-    casing_spec,
-    coating_cases,
-    listed_case,
-    speed_name,
-    speeds,
-)
 from bladerub.study.orders import excited_orders, excites, nodal_diameters, peak_orders, used_casings
 
 
@@ -33,11 +24,14 @@ def notes(config: Config) -> list[str]:
 
 
 def _histories(config: Config) -> Iterator[str]:
-    cases, planned = set(coating_cases(config)), set(speeds(config))
+    cases, planned = set(grid.coating_cases(config)), set(grid.speeds(config))
     listed = [
-        (listed_case(entry), round(entry.f_omega, SPEED_DECIMALS)) for entry in config.analysis.histories
+        (grid.listed_case(entry), round(entry.f_omega, grid.SPEED_DECIMALS))
+        for entry in config.analysis.histories
     ]
-    lost = [f"{case.name}/{speed_name(f)}" for case, f in listed if case not in cases or f not in planned]
+    lost = [
+        f"{case.name}/{grid.speed_name(f)}" for case, f in listed if case not in cases or f not in planned
+    ]
     if lost:
         ellipsis = ", ..." if len(lost) > 1 else ""
         yield f"analysis.histories: {len(lost)} left out, not in this study ({lost[0]}{ellipsis})"
@@ -53,7 +47,7 @@ def _orders(config: Config) -> Iterator[str]:
 
 def _scaled_casings(config: Config) -> Iterator[str]:
     """Give the sizes that ``contact.scale`` makes of casings."""
-    factor = config.contact.plugged("scale", UNSCALED).length
+    factor = config.contact.plugged("scale", grid.UNSCALED).length
     for name in used_casings(config):
         casing = config.casings[name]
         keys = (key for key in ("amplitude", "interference") if casing.plugged(key) is not None)
@@ -78,9 +72,9 @@ def _overlaps(config: Config) -> Iterator[str]:
     """Name the casings that the tip starts in: no work of the blade deforms their coating there."""
     clearance, angles = smallest_clearance(config), np.arange(360.0)
     for name in used_casings(config):
-        casing = casing_spec(name, config.casings[name])
+        casing = grid.casing_spec(name, config.casings[name])
         if (overlap := -float(gap(casing, clearance, casing.start_angle))) > 0:
-            millimetres = 1e3 * config.contact.plugged("scale", UNSCALED).length * overlap
+            millimetres = 1e3 * config.contact.plugged("scale", grid.UNSCALED).length * overlap
             widest = angles[gap(casing, clearance, np.radians(angles)).argmax()]
             why = f"the blade starts {millimetres:.2g} mm inside the coating, so its energy does not balance"
             setting = f"casings.{name}.start_angle = {config.casings[name].start_angle:g}"
