@@ -17,6 +17,7 @@ from bladerub.contact.schemes import Contact, central_differences, exponential
 M, H, N = 0.1, 1e-6, 64
 BETA = 1e-4
 DEPTH = 1e-3
+SPEED = 0.1
 
 
 def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
@@ -72,3 +73,30 @@ def test_exponential_scheme_does_not_damp_contact(kappa):
     np.testing.assert_allclose(casoratian / casoratian[0], 1.0, rtol=2e-3)
     cosine = (u[2:] + u[:-2]) @ u[1:-1] / (2 * u[1:-1] @ u[1:-1])
     assert np.arccos(cosine) == pytest.approx(2 * np.arcsin(np.sqrt(kappa) / 2), rel=1e-3)
+
+
+@pytest.mark.parametrize("hardening", [1e12, 0.5])
+def test_errors_of_a_bounce_average_out(hardening):
+    """Errors of the speed after a bounce vanish in the mean over the phase of the first contact.
+
+    A bar that yields at once and hardens by K gives back the part ``E_T / E = K / (E + K)`` of the energy.
+    """
+    bar = 4 * 0.13 * M / H**2  # κ = 0.13
+    tip_modes = np.zeros((16, 1))
+    tip_modes[0, 0] = M**-0.5
+    contact = Contact(np.full(8, bar), -1.0, 0.0)
+    rule = exponential(Modes(np.array([1.0]), tip_modes, 8), 0.0, H, contact)
+    gap = np.ones((N, 8))
+    gap[:, 0] = 10 * SPEED * H
+    after = []
+    for phase in np.arange(24) / 24:
+        loop = simulation(rule, contact, gap, hardening, steps=1000, per_metre=0.0, limit=1.0)
+        positions = SPEED * H * (phase - np.arange(3))
+        loop.state.q[:, 0] = positions / tip_modes[0, 0]
+        loop.state.u[:, [0, 16]] = positions[:, None]
+        loop.advance(np.zeros(1))
+        after.append((loop.state.q[0, 0] - loop.state.q[1, 0]) * tip_modes[0, 0] / (SPEED * H))
+    errors = np.array(after) + np.sqrt(hardening / (1 + hardening))
+    print(f"K / E = {hardening:g}: mean {errors.mean():.4f}, scatter {errors.std():.4f}")
+    assert 0.01 < errors.std() < 0.05
+    assert abs(errors.mean()) < 0.1 * errors.std()

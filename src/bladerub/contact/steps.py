@@ -10,8 +10,10 @@ The error of a run is of second order in its step h. It has two causes, which ad
    trapezoidal rule, ``C(h) = Σ φ φᵀ / (ω² + 4/h²)``: statically in modes that are fast, as a free mass in
    those that are slow. κ is the largest eigenvalue of ``k C(h)``, k the stiffness of the elements under each
    node. For a mass m on one spring it is ``(h/2)² k/m`` of the bounce, whose period has the relative error
-   κ/6: ``κ/BOUNCE``. On the rigid casing the tip does not vibrate on a spring: the modes that a step
-   resolves meet a constraint. There `RIGID` times the steps of the first cause are enough.
+   κ/6: ``κ/BOUNCE``. Where in a step contact begins and ends decides the sign of the error, so those of
+   several bounces average out: of b in the passage of an element, ``b = n √κ / π``, by ``√(b/AVERAGED)``. On
+   the rigid casing the tip does not vibrate on a spring: the modes that a step resolves meet a constraint.
+   There `RIGID` times the steps of the first cause are enough.
 
 The two factors are calibrated on runs of the study (docs/explanation/performance.md). Runs that are chaotic
 have no error that a step could bound; the limits are the same for them. Central differences are of first
@@ -35,6 +37,9 @@ RATE = 0.18
 
 BOUNCE = 13.0
 """κ at which the bounce makes a relative error of 1, by its small values."""
+
+AVERAGED = 1.5
+"""Bounces in the passage of an element from which on their errors average out."""
 
 RIGID = 3
 """Factor of the steps on the rigid casing."""
@@ -66,7 +71,9 @@ def steps_per_element(
         return RIGID * n_steps
 
     def error() -> float:
-        return factor / n_steps**order + bounce(modes, contact, passage / n_steps) / BOUNCE
+        kappa = bounce(modes, contact, passage / n_steps)
+        bounces = n_steps * math.sqrt(kappa) / math.pi
+        return factor / n_steps**order + kappa / BOUNCE * math.sqrt(AVERAGED / max(AVERAGED, bounces))
 
     while (excess := error() / spec.tolerance) > 1:  # more steps decrease it with their square at most
         n_steps = max(n_steps + 1, math.floor(n_steps * math.sqrt(excess)))

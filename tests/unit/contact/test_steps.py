@@ -8,7 +8,7 @@ from threadpoolctl import threadpool_limits
 from bladerub.contact import setup
 from bladerub.contact.modes import Modes, mode_shapes_at, modes_at
 from bladerub.contact.schemes import FASTEST_PHASE, STEADY, Contact, central_differences, exponential
-from bladerub.contact.steps import BOUNCE, PASSAGE, STABLE_PART, bounce, steps_per_element
+from bladerub.contact.steps import AVERAGED, BOUNCE, PASSAGE, STABLE_PART, bounce, steps_per_element
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.turning.motion import further
 
@@ -44,8 +44,10 @@ def test_a_free_mass_bounces_with_its_spring_and_a_fast_mode_yields_by_its_stati
 def test_as_few_steps_as_the_sum_of_both_errors_allows(by_tolerance, mass, tolerance, stiffness):
     run, passage = by_tolerance(tolerance=tolerance), 1.3e-5
     n = steps_per_element(run, mass, contact(stiffness), passage)
-    in_one_step = PASSAGE**2 + (passage / 2) ** 2 * stiffness / MASS / BOUNCE
-    assert n == math.ceil(math.sqrt(in_one_step / tolerance))
+    bounces = passage * math.sqrt(stiffness / MASS) / (2 * math.pi)
+    of_bounce = (passage / 2) ** 2 * stiffness / MASS / BOUNCE * math.sqrt(min(1, AVERAGED / bounces))
+    assert (bounces > AVERAGED) == (stiffness == 8e8)
+    assert n == math.ceil(math.sqrt((PASSAGE**2 + of_bounce) / tolerance))
 
 
 def test_a_law_that_depends_on_the_rate_counts_half_a_step(blade, by_tolerance):
