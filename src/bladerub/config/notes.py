@@ -69,14 +69,14 @@ def _idle_orders(config: Config) -> Iterator[str]:
 
 
 def _overlaps(config: Config) -> Iterator[str]:
-    """Name the casings that the tip starts in: no work of the blade deforms their coating there."""
+    """Name the casings that the tip starts in: no work of the blade deforms them there."""
     clearance, angles = smallest_clearance(config), np.arange(360.0)
     for name in used_casings(config):
         casing = grid.casing_spec(name, config.casings[name])
         if (overlap := -float(gap(casing, clearance, casing.start_angle))) > 0:
             millimetres = 1e3 * config.contact.plugged("scale", grid.UNSCALED).length * overlap
             widest = angles[gap(casing, clearance, np.radians(angles)).argmax()]
-            why = f"the blade starts {millimetres:.2g} mm inside the coating, so its energy does not balance"
+            why = f"the tip starts {millimetres:.2g} mm inside the casing, so its energy does not balance"
             setting = f"casings.{name}.start_angle = {config.casings[name].start_angle:g}"
             yield f"{setting}: {why}; the gap is widest at {widest:g} degrees"
 

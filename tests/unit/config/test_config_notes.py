@@ -120,5 +120,5 @@ def test_orders_that_a_file_gives_are_kept_and_doubted(laid_over):
 def test_a_blade_that_starts_inside_the_coating_is_doubted(laid_over, diameters, widest):
     _, notes = laid_over(on_casing(nodal_diameters=diameters, start_angle=0.0))
     (note,) = [note for note in notes if "start_angle" in note]
-    assert note.startswith("casings.own.start_angle = 0: the blade starts 0.47 mm")  # 0.5 less the clearance
+    assert note.startswith("casings.own.start_angle = 0: the tip starts 0.47 mm")  # 0.5 less the clearance
     assert note.endswith(f"at {widest} degrees")
