@@ -12,5 +12,6 @@ for figure, small, (colours, shrink) in zip(
     snakemake.input, snakemake.output, snakemake.params.pictures, strict=True
 ):
     with Image.open(figure) as image, atomic.writing(small, "wb") as stream:
-        few = image.convert("RGB").reduce(shrink).quantize(colours, dither=Image.Dither.NONE)
+        # by an octree: a median cut gives colours of few pixels up, such as red marks
+        few = image.convert("RGB").reduce(shrink).quantize(colours, Image.Quantize.FASTOCTREE)
         few.save(stream, format="PNG", optimize=True)
