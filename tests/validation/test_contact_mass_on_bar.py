@@ -20,13 +20,22 @@ DEPTH = 1e-3
 SPEED = 0.1
 
 
-def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
-    """Run the compiled loop from a small deviation about the equilibrium on the bars."""
-    spring, bar = BETA * M / H**2, kappa * M / H**2
+def mass_on_bar(spring, bar, scheme):
+    """Return the scheme for the mass on a weak `spring`, its contact with the bar, its mode at the tip."""
     tip_modes = np.zeros((16, 1))
     tip_modes[0, 0] = M**-0.5
     contact = Contact(np.full(8, bar), -1.0, 0.0)
-    rule = scheme(Modes(np.array([np.sqrt(spring / M)]), tip_modes, 8), 0.0, H, contact)
+    return (
+        scheme(Modes(np.array([np.sqrt(spring / M)]), tip_modes, 8), 0.0, H, contact),
+        contact,
+        tip_modes[0, 0],
+    )
+
+
+def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
+    """Run the compiled loop from a small deviation about the equilibrium on the bars."""
+    spring, bar = BETA * M / H**2, kappa * M / H**2
+    rule, contact, mode = mass_on_bar(spring, bar, scheme)
     gap = np.ones((N, 8))
     gap[:, 0] = -DEPTH
     # the paper's scheme takes the force at the prediction (1 − β) u of a resting mass
@@ -34,7 +43,7 @@ def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     rest = -DEPTH * kappa / (BETA + kappa * predicted)
     loop = simulation(rule, contact, gap, per_metre=0.0, limit=1.0)
     state = loop.state
-    state.q[:, 0] = (rest + start) / tip_modes[0, 0]
+    state.q[:, 0] = (rest + start) / mode
     state.u[:, [0, 16]] = rest + start  # displacement and height of the first node
     if not rule.corrects:  # the elements are already pressed
         state.normal_force[0, 0] = bar * (rest + start + DEPTH)
@@ -81,21 +90,18 @@ def test_errors_of_a_bounce_average_out(hardening):
 
     A bar that yields at once and hardens by K gives back the part ``E_T / E = K / (E + K)`` of the energy.
     """
-    bar = 4 * 0.13 * M / H**2  # κ = 0.13
-    tip_modes = np.zeros((16, 1))
-    tip_modes[0, 0] = M**-0.5
-    contact = Contact(np.full(8, bar), -1.0, 0.0)
-    rule = exponential(Modes(np.array([1.0]), tip_modes, 8), 0.0, H, contact)
+    # κ = 0.13, and a spring too weak to matter
+    rule, contact, mode = mass_on_bar(M, 4 * 0.13 * M / H**2, exponential)
     gap = np.ones((N, 8))
     gap[:, 0] = 10 * SPEED * H
     after = []
     for phase in np.arange(24) / 24:
         loop = simulation(rule, contact, gap, hardening, steps=1000, per_metre=0.0, limit=1.0)
         positions = SPEED * H * (phase - np.arange(3))
-        loop.state.q[:, 0] = positions / tip_modes[0, 0]
+        loop.state.q[:, 0] = positions / mode
         loop.state.u[:, [0, 16]] = positions[:, None]
         loop.advance(np.zeros(1))
-        after.append((loop.state.q[0, 0] - loop.state.q[1, 0]) * tip_modes[0, 0] / (SPEED * H))
+        after.append((loop.state.q[0, 0] - loop.state.q[1, 0]) * mode / (SPEED * H))
     errors = np.array(after) + np.sqrt(hardening / (1 + hardening))
     print(f"K / E = {hardening:g}: mean {errors.mean():.4f}, scatter {errors.std():.4f}")
     assert 0.01 < errors.std() < 0.05

@@ -16,7 +16,7 @@ FEWEST = 8
 ON_RIGID_CASING = 7
 """Time of a run on the rigid casing over that of one on a soft coating, about."""
 
-STIFF, GROWTH = 12.0, 0.6
+STIFF, EXPONENT = 12.0, 0.6
 """E / f_omega from which on the time of a run grows, as its steps do, and the power by which it does."""
 
 BEGUN = 1
@@ -57,7 +57,7 @@ def priority_of(coating: str, costs: Costs) -> float:
 
 def run_cost(E: float, f_omega: np.ndarray) -> np.ndarray:
     """Estimate what runs at the speeds `f_omega` (n,) cost on a coating of modulus `E`, in soft ones (n,)."""
-    return np.maximum(1.0, E / STIFF / f_omega) ** GROWTH
+    return np.maximum(1.0, E / STIFF / f_omega) ** EXPONENT
 
 
 def costs_of(config: Config) -> Costs:
