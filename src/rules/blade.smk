@@ -2,7 +2,7 @@
 from pathlib import Path
 
 from bladerub.blade.files import is_built, missing_file, without_defaults
-from bladerub.blade.source import files, place
+from bladerub.blade.source import files, modules
 from bladerub.io.errors import DamagedFile
 from bladerub.workflow.invocation import damage, loss, replaces
 
@@ -26,7 +26,7 @@ rule blade:
         replaces(workflow, REDUCED_MODEL, of_another_config),
         replaces(workflow, REDUCED_MODEL, damage),
         replaces(workflow, MESH, damage),
-        code=files_behind("blade.build", *filter(None, [place(STUDY.blade)])),
+        code=files_behind(*modules(STUDY)),
         given=files(STUDY.blade),
     output:
         **described(rom_accuracy=f"{RESULTS}/blade/rom_accuracy.csv"),

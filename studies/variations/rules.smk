@@ -186,6 +186,7 @@ rule identification_wave:
         next_sets=lambda wildcards: (
             [] if wildcards.wave == "1" else f"{OF_SETS}/wave{int(wildcards.wave) - 1}/next_sets.csv"
         ),
+        drawing=files_behind("extras.variations.waves"),
     output:
         **described(sets=f"{OF_SETS}/wave{{wave}}/sets.csv"),
     log:

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import pandas as pd
+from pydantic import Field
 
 from bladerub import plots
 from bladerub.api.arguments import InputError, over
@@ -118,7 +119,8 @@ class Blade(Shown):
         A list of speeds gives a list. Raises `InputError` if one is no speed.
         """
         try:
-            return checked_quantity(number("f_omega", speed, references(None, self.f1_hz)), Speed)
+            plain = number("f_omega", speed, references(None, self.f1_hz))
+            return checked_quantity(plain, Annotated[Speed, Field(ge=0, le=2)])
         except ValueError as error:
             raise InputError("speed", speed, str(error)) from None
 

@@ -17,7 +17,7 @@ from bladerub.config.checks import own_problem
 from bladerub.config.files import Located
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
 from bladerub.settings.coatings import History, HistoryOfDirectContact, HistoryWithFriction, OnCasing
-from bladerub.settings.study import Config, required, typed
+from bladerub.settings.study import Config, defaults, required, typed
 from bladerub.settings.units import moduli_in_words, pressure_in_words, speeds_in_words
 from bladerub.study import grid
 
@@ -67,7 +67,7 @@ class Study(Shown):
     def from_settings(cls, settings: Mapping[str, Any]) -> "Study":
         """Return the study of nested values as `load_study` does that of a file; raises as `replace`."""
         if required() <= settings.keys():
-            return cls(configuration.validate(settings), study_folder())
+            return cls(configuration.validate({**defaults(), **settings}), study_folder())
         return cls(configuration.read(base_config()), study_folder()).replace(settings)
 
     @property
@@ -212,7 +212,7 @@ class Study(Shown):
         self, kind: type[OnCasing], casing: str, own: Mapping[str, Quantity | None], **values: Quantity
     ) -> StudyCoating:
         """Describe the coating of an entry of this kind; what is None in `own` is that of the config."""
-        if casing not in self.config.casings:
+        if not isinstance(casing, str) or casing not in self.config.casings:
             close = get_close_matches(str(casing), self.config.casings, n=1)
             hint = f"; did you mean {close[0]}?" if close else ""
             raise InputError("casing", casing, f"must be one of {', '.join(self.config.casings)}{hint}")

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.blade.files import made_from, recipe
-from bladerub.blade.source import reader
+from bladerub.blade.source import modules
 from bladerub.io import atomic
 from bladerub.io.folders import cache_folder
 from bladerub.io.provenance import packages
-from bladerub.io.sources import digest_of, source_digest
-from bladerub.settings.blade import Blade, BladeSpec
+from bladerub.io.sources import digest_behind
+from bladerub.settings.blade import BladeSpec
 
 
 def kept_at(config: BladeSpec) -> Path:
@@ -21,13 +21,11 @@ def kept_at(config: BladeSpec) -> Path:
     The folder is named after all that determines the blade: its config, its file, the sources that build it,
     and the versions of the packages. Raises as `bladerub.blade.files.made_from`.
     """
-    return cache_folder() / "blades" / _name(config.blade, made_from(config)) / "reduced_model.h5"
+    return cache_folder() / "blades" / _name(config, made_from(config)) / "reduced_model.h5"
 
 
-def _name(blade: Blade, origin: Any) -> str:
-    module = reader(blade)
-    reading = module and source_digest(Path(module.__file__).parent.rglob("*.py"))
-    content = [origin, digest_of("blade"), reading, packages()]
+def _name(config: BladeSpec, origin: Any) -> str:
+    content = [origin, digest_behind(*modules(config)), packages()]
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -60,4 +58,4 @@ def rounded_frequency(f1_hz: float) -> float:
 
 def _frequency_path(config: BladeSpec) -> Path:
     # the reduction has no part in it at rest
-    return cache_folder() / "frequencies" / _name(config.blade, recipe(config.blade))
+    return cache_folder() / "frequencies" / _name(config, recipe(config.blade))

@@ -17,7 +17,7 @@ from types import ModuleType
 
 from bladerub import plugins
 from bladerub.io.errors import BadInput
-from bladerub.settings.blade import Blade
+from bladerub.settings.blade import Blade, BladeSpec
 
 FUNCTIONS = ("problems", "recipe", "files", "build", "frequency_at_rest")
 """What the module of every source has."""
@@ -35,6 +35,12 @@ def place(blade: Blade) -> str | None:
     if not given:
         raise ValueError(f"blade.source: must have {' or '.join(sorted(places)) or 'a plugin that reads it'}")
     return given[0]
+
+
+def modules(config: BladeSpec) -> list[str]:
+    """Name the modules, below ``bladerub``, that build the blade of `config`; raises as `place`."""
+    refining = [] if config.reduction.tolerance is None else plugins.offered("REDUCTIONS").values()
+    return ["blade.build", *filter(None, [place(config.blade)]), *refining]
 
 
 def reader(blade: Blade) -> ModuleType | None:

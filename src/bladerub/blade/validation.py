@@ -9,12 +9,14 @@ from typing import Any
 import h5py
 import numpy as np
 
+from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade, reduced_blade
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 LARGEST_MATRIX = 10_000  # coordinates of a reduced blade; more would fill the memory
+SAME_FREQUENCY = 0.01  # f1_hz is of the finite elements, or of an edited file
 FARTHEST = 1000.0  # m, of a node from the axis or along it
 
 _OF_NODES = ("node_position", "radial_direction", "tangential_direction", "tip_slope")
@@ -85,7 +87,12 @@ def _check(blade: ReducedBlade) -> None:
         tolerance = 1e-6 * np.abs(values).max()
         if is_matrix and not np.allclose(values, values.T, rtol=0, atol=tolerance):
             raise ValueError(f"{name}: must be symmetric")
+    if len({*np.sign(np.diff(blade.node_position[:, 0]))} | {0.0}) != 2:
+        raise ValueError("node_position: must go on along the axis, x, from each node to the next")
     try:
         np.linalg.cholesky(blade.mass)
     except np.linalg.LinAlgError as error:
         raise ValueError("mass: must be positive definite") from error
+    lowest = float(reduced_frequencies(blade, 0.0, 1)[0])
+    if abs(blade.f1_hz - lowest) > SAME_FREQUENCY * lowest:
+        raise ValueError(f"f1_hz = {blade.f1_hz:g}: must be the lowest frequency at rest, {lowest:.6g} Hz")

@@ -108,9 +108,9 @@ def require_writable(option: str, path: Path) -> None:
     """Check that `path`, which need not exist, is in a folder that can be written to or made."""
     folder = next(parent for parent in path.absolute().parents if os.path.lexists(parent))
     if not folder.is_dir():
-        raise BadInput(f"--{option} {path}: cannot be written, {folder} is no folder")
+        raise BadInput(f"{option} {path}: cannot be written, {folder} is no folder")
     if not os.access(folder, os.W_OK):
-        raise BadInput(f"--{option} {path}: cannot be written, {folder} is write-protected")
+        raise BadInput(f"{option} {path}: cannot be written, {folder} is write-protected")
 
 
 def progress_bar(total: int, unit: str, items: Iterable | None = None, quiet: bool = False) -> tqdm:

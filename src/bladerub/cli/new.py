@@ -33,7 +33,7 @@ def new(options: argparse.Namespace) -> None:
     folder = options.folder
     if folder.is_file() or (folder.is_dir() and any(folder.iterdir())):
         raise BadInput(f"{folder}: is there already, must be a new or an empty folder")
-    inputs.require_writable("folder", folder / "Snakefile")
+    inputs.require_writable("FOLDER", folder / "Snakefile")
     with refused(OSError):
         for name in _COPIED:
             shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))

@@ -4,7 +4,6 @@ import argparse
 import math
 import os
 import sys
-import time
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -123,13 +122,11 @@ def run(options: argparse.Namespace) -> None:
     solver_of(config).check()
     blade = blade or inputs.read_blade(options, config)[0]
     with refused(ValueError, OSError), inputs.as_options(f_omega="f"):
-        start = time.perf_counter()
         result = simulate(blade, planned, **more)
-        seconds = time.perf_counter() - start
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             result.write(options.output, config)
-    figures = _figures(planned, blade, result, seconds)
+    figures = _figures(planned, blade, result)
     inputs.warn_of_residual(options, figures["energy_residual"])
     for option in _options():
         figures |= option.figures(options, planned, blade, result)
@@ -163,12 +160,11 @@ def _point_out(options: argparse.Namespace, planned: "StudyRun") -> None:
         print(f"bladerub run: making the folder {options.output.parent}", file=sys.stderr)
 
 
-def _figures(planned: "StudyRun", blade: "Blade", result: "Run", seconds: float) -> dict[str, Any]:
+def _figures(planned: "StudyRun", blade: "Blade", result: "Run") -> dict[str, Any]:
     from bladerub.study.store import datasets
 
     case, summary = planned.case, result.summary(planned.config)
     peak = summary["peak_amplitude"]
-    steps = sum(run.attributes["n_steps"] for run in (result, result.longer) if run)
     return {
         "casing": case.casing,
         "E": None if case.is_rigid else case.E,
@@ -183,7 +179,6 @@ def _figures(planned: "StudyRun", blade: "Blade", result: "Run", seconds: float)
         "f_omega": planned.f_omega,
         "revolutions": planned.spec.revolutions,
         **summary,
-        "steps_per_second": steps / seconds,
         "run_key": result.attributes["run_key"],
         "units": _UNITS | {f"max_{name}": datasets()[name][1] for name in result.layer},
         "rpm": 60 * planned.f_omega * blade.f1_hz,
@@ -196,7 +191,7 @@ def _check_output(path: Path) -> None:
     try:
         os.lstat(path)
     except (FileNotFoundError, NotADirectoryError):
-        inputs.require_writable("output", path)
+        inputs.require_writable("--output", path)
         return
     except OSError as error:
         raise BadInput(f"--output {path}: cannot be written ({error.strerror})") from error
@@ -204,7 +199,7 @@ def _check_output(path: Path) -> None:
         raise BadInput(f"--output {path}: is a folder, must be a file")
     if not _is_run(path):
         raise BadInput(f"--output {path}: is there and is no run, must be a new file or a run to replace")
-    inputs.require_writable("output", path)
+    inputs.require_writable("--output", path)
 
 
 def _is_run(path: Path) -> bool:
@@ -239,7 +234,6 @@ def _in_words(figures: dict[str, Any]) -> str:
         "status": f"{figures['status']}, {figures['revolutions']} revolutions",
         "energy residual": f"{figures['energy_residual']:.2g} of the work exchanged",
         "steps": figures["n_steps"],
-        "steps per second": f"{figures['steps_per_second']:.3g}",
     }
     lines = inputs.aligned(rows.items())
     for option in _options():

@@ -205,7 +205,8 @@ class _Loader(yaml.SafeLoader):
         except Exception as error:  # the text may not hold what its tag or its form promises
             raise _error(f"{format_value(node.value)} is no {node.tag.rsplit(':', 1)[-1]}", node) from error
         # YAML 1.1 leaves numbers such as 1e-3 as text
-        return float(value) if isinstance(value, str) and _NUMBER.fullmatch(value) else value
+        is_plain = isinstance(value, str) and node.style is None
+        return float(value) if is_plain and _NUMBER.fullmatch(value) else value
 
 
 def yaml_reading(text: str) -> str | None:

@@ -21,8 +21,9 @@ def held(path: str | Path, on_wait: Callable[[], object]) -> Iterator[None]:
     stream = attempt(path)
     if stream is None:
         stream = _opened(path)
-        with suppress(OSError):  # no such locks here
+        with suppress(OSError):  # a log on a full disk
             on_wait()
+        with suppress(OSError):  # no such locks here
             fcntl.flock(stream, fcntl.LOCK_EX)
     with stream:
         yield

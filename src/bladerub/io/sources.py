@@ -10,13 +10,17 @@ from pathlib import Path
 
 from bladerub.io.folders import PACKAGE
 
+COMPUTING = {"blade", "contact", "study"}
+"""Subpackages whose code determines numbers."""
+
 
 def files_behind(*modules: str) -> list[str]:
     """List the source files of modules and of what they import, directly or not, from their own subpackages.
 
     Snakemake does not follow imports. What is computed in other subpackages reaches a rule by the files that
-    it reads. Modules are named below ``bladerub``, such as ``"study.maps"``. The paths are sorted, and
-    those of the repository if it is the working directory.
+    it reads; extras compute with all the core themselves, so theirs are those of `COMPUTING` as well. Modules
+    are named below ``bladerub``, such as ``"study.maps"``. The paths are sorted, and those of the repository
+    if it is the working directory.
     """
     repository = PACKAGE.parents[1]
     names = ((path, path.relative_to(repository)) for path in _paths_behind(modules))
@@ -30,6 +34,7 @@ def digest_behind(*modules: str) -> str:
 
 def _paths_behind(modules: Iterable[str]) -> set[Path]:
     subpackages = {module.partition(".")[0] for module in modules}
+    subpackages |= COMPUTING if "extras" in subpackages else set()
     paths, queue = set(), list(modules)
     while queue:
         path = _path_of(queue.pop())

@@ -54,7 +54,7 @@ _IN_WORDS = {
     "f1/s": "times the first frequency at rest, in a second",
     "modulus_unit": "times contact.modulus_unit",
 }
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,2})?"
 _QUANTITY = re.compile(rf"\s*({NUMBER})\s*([^\s\d.,+-].*?)\s*", re.S)
 _DIGITS = 12  # of a value in units of a reference, which is itself known to fewer
 

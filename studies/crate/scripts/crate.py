@@ -23,8 +23,14 @@ for name, value in provenance(snakemake.config).items():
     entry = {"@id": f"#{name}", "@type": "PropertyValue", "name": name, "value": value}
     crate.root_dataset.append_to("additionalProperty", crate.add_jsonld(entry))
 crate.add_workflow("Snakefile", main=True, lang="snakemake", properties=WORKFLOW)
-crate.add_directory(ROOT / "src" / "rules", "src/rules", properties={"description": "Rules of the workflow"})
-crate.add_directory(ROOT / "studies", "studies", properties={"description": "Rules of further studies"})
+folders = {
+    "src/rules": "Rules of the workflow",
+    "src/scripts": "Scripts of its jobs",
+    "src/report": "Captions of its figures",
+    "studies": "Rules, scripts and captions of further studies",
+}
+for name, description in folders.items():
+    crate.add_directory(ROOT / name, name, properties={"description": description})
 crate.add_directory("config", "config", properties={"description": "Config of the study and its schema"})
 results = Path(snakemake.params.results)
 for name, description in snakemake.params.folders.items():

@@ -15,6 +15,7 @@ from bladerub.extras.benchmark import record
 from bladerub.extras.gpu.batch import Device
 from bladerub.extras.gpu.many import LeftOut, simulate_many
 from bladerub.extras.study_runs import study_runs
+from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec
 from bladerub.study.solver import each_done
@@ -60,6 +61,8 @@ def compare(
     """
     single = [run_spec(config, run.case, run.f_omega) for run in study_runs(config) if not run.row]
     described = [spec for spec in single if not (spec.coating.is_rigid or spec.coating.coulomb)]
+    if not described:
+        raise BadInput("--gpu: the study has no coating with theta, whose runs alone are on a GPU")
     kernel: list[float] = []
     notices: list[LeftOut] = []
     watched: Device = partial(device, watch=kernel.append)

@@ -78,7 +78,7 @@ class ChartPoint:
     @property
     def known(self) -> np.ndarray:
         """Which speeds were run (n,)."""
-        return np.isfinite(self.measures["peak"])
+        return np.isfinite(self.measures["revolutions"])
 
 
 def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: Config) -> str:

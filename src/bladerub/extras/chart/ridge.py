@@ -53,7 +53,8 @@ def _peaks(config: Config, points: list[ChartPoint], multiple: int) -> pd.DataFr
     """Y_k of each point from its runs at speeds `multiple` steps of the study apart; NaN without any."""
     rows = []
     for point in points:
-        steps = (point.f_omega - config.chart.speeds.start) / (config.speeds.step * multiple)
+        first = point.f_omega[np.abs(point.f_omega - config.chart.speeds.start).argmin()]
+        steps = (point.f_omega - first) / (config.speeds.step * multiple)
         even = (np.abs(steps - np.rint(steps)) < 1e-6) | (multiple == 1)
         subset = replace(point, spectrum_amplitude=np.where(even[:, None], point.spectrum_amplitude, np.nan))
         case = point.case

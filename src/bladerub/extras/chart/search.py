@@ -113,7 +113,7 @@ def search(
 
 def _taken_over(point: ChartPoint, earlier: ChartPoint | None, index: int) -> bool:
     """Take into `point` what `earlier` knows of the run at one speed; return whether that is all."""
-    needed = "divergent" if point.uniform[index] else "peak"
+    needed = "divergent" if point.uniform[index] else "revolutions"
     if earlier is None or np.isnan(earlier.measures[needed][index]):
         return False
     point.spectrum_amplitude[index] = earlier.spectrum_amplitude[index]

@@ -16,7 +16,7 @@ _log = logging.getLogger(__name__)
 
 STAGES = {"blade": "blade", "compile_kernel": "compilation", "coating": "rubs"}
 STAGES |= dict.fromkeys(("peaks", "divergence", "findings", "margins"), "tables")
-STAGES |= dict.fromkeys(("histograms", "histories"), "figures")
+STAGES |= dict.fromkeys(("casing", "histograms", "histories", "spectrum", "wear_map"), "figures")
 """Stage of each rule, in the order of the workflow; rules named after a figure of the paper: ``figures``."""
 _RECORDED = ["s", "cpu_time", "max_rss"]
 COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]

@@ -66,7 +66,7 @@ def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> dict[st
     source = config.blade.plugged("source")
     if source and source.matrices:
         raise BadInput("--fe-matrices: the blade of the config is of matrices already, without elements")
-    inputs.require_writable("fe-matrices", folder)
+    inputs.require_writable("--fe-matrices", folder)
     f_max = config.reduction.f_omega_max
     speeds = sorted(_speeds(options, f_max))
 

@@ -153,7 +153,7 @@ def _run_of_file(
     if target.exists():
         kind = "folder" if form == "vtu" else "file"
         raise BadInput(f"--{form} {target}: is there already, must be a new {kind}")
-    inputs.require_writable(form, target)
+    inputs.require_writable(f"--{form}", target)
 
     from bladerub.extras.export.recording import claimed_run
     from bladerub.study import run_set

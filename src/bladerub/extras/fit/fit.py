@@ -29,6 +29,7 @@ CORRELATED = 0.3
 """Correlation of successive residuals beyond which they are no independent errors."""
 _STARTS = (0.1, 0.3, 0.6, 0.9)  # elastic limit over the largest stress
 _YIELDING = 0.999  # level; the place of the bend is sought, so that noise alone gains more than one of F says
+_PRECISELY = {"xtol": 1e-12, "ftol": 1e-15, "gtol": 1e-15}  # exact curves give the exact law
 _TRIED = 3  # of the starting values, the nearest
 _EXPONENT = (0.02, 2.0)
 # depths are strains, and stresses multiples of the largest one measured
@@ -126,7 +127,7 @@ def fit(curves: Sequence[Curve]) -> Fit:
     ]
     optimum = min(
         (
-            least_squares(residuals, start, bounds=bounds, x_scale=np.abs(start) + 1e-3, xtol=1e-12)
+            least_squares(residuals, start, bounds=bounds, x_scale=np.abs(start) + 1e-3, **_PRECISELY)
             for start in starts
         ),
         key=lambda result: result.cost,

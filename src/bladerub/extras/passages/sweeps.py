@@ -151,7 +151,7 @@ def table(
                 "amplitude": swept_peak.amplitude,
                 "f_peak_constant": at_constant.f_omega,
                 "amplitude_constant": at_constant.amplitude,
-                "f_end": sweep.speed[np.isfinite(sweep.revolution_amplitude)][-1],
+                "f_end": np.append(np.nan, sweep.speed[np.isfinite(sweep.revolution_amplitude)])[-1],
             }
         )
     table = pd.DataFrame(rows)

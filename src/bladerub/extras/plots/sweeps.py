@@ -59,7 +59,7 @@ def sweeps(swept: Sequence[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]) 
 def _draw(axes: Axes, sweep: SpeedSweep, look: dict) -> None:
     amplitude = 1e3 * sweep.revolution_amplitude
     axes.plot(sweep.speed, amplitude, label=f"rate {sweep.rate:g} a second", **look)
-    if sweep.status == "unbounded":
+    if sweep.status == "unbounded" and np.isfinite(amplitude).any():
         last = np.flatnonzero(np.isfinite(amplitude))[-1]
         axes.plot(sweep.speed[last], amplitude[last], color=look["color"], marker="x", label="_end")
 

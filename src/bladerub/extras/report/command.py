@@ -38,7 +38,7 @@ def report(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     folder = inputs.study_folder() / config.results
     path = options.output or folder / "report.html"
-    inputs.require_writable("output", path)
+    inputs.require_writable("--output", path)
 
     from bladerub.extras.report import answers, page, results
     from bladerub.io import atomic

@@ -133,7 +133,7 @@ def _named(
 def _extremes(stress: ModalStress, coordinates: np.ndarray, parts: Sequence[slice]) -> list[np.ndarray]:
     """Coordinates, in each part, where those that cause most stress are largest, each alone and added up."""
     slope = np.abs(stress.slope).max(axis=(1, 2))
-    leading = np.argsort(slope * np.ptp(coordinates[::_LEADING], axis=0))[-_LEADING:]
+    leading = np.argsort(slope * np.ptp(coordinates, axis=0))[-_LEADING:]
     signs = np.array([*product((-1.0, 0.0, 1.0), repeat=leading.size)], stress.slope.dtype)
     sums = (signs * slope[leading]) @ coordinates[:, leading].T
     return [coordinates[part][np.unique(sums[:, part].argmax(axis=1))] for part in parts]

@@ -108,7 +108,7 @@ def ranges(plan: Plan, remainder: Remaining) -> pd.DataFrame:
 
 
 def exclusions(verdicts: pd.DataFrame) -> pd.DataFrame:
-    """List the pairs of claims that hold together in fewer sets than chance would give, rarest first.
+    """List the pairs of claims that hold together in fewer than half as many sets as by chance.
 
     ``both`` is the share of the sets in which both hold, ``by_chance`` the product of their own shares.
     """

@@ -54,14 +54,17 @@ def _command(options: argparse.Namespace) -> int:
             raise BadInput(f"{folder}: there is no such folder")
     with refused(ValueError, OSError):
         table = compare(options.folder, reference)
-    different = table[~table.agrees].drop(columns="agrees").to_dict(orient="records")
-    inputs.show(options, {"compared": len(table), "different": different}, _in_words)
+    compared = table.dropna(subset="value")
+    different = compared[~compared.agrees].drop(columns="agrees").to_dict(orient="records")
+    figures = {"compared": len(compared), "missing": len(table) - len(compared), "different": different}
+    inputs.show(options, figures, _in_words)
     return 1 if different else 0
 
 
 def _in_words(figures: dict[str, Any]) -> str:
     rows, n = figures["different"], figures["compared"]
-    lines = [f"{n - len(rows)} of {n} numbers agree with the reference within the uncertainties"]
+    missing = f"; {figures['missing']} more of these tables are missing" if figures["missing"] else ""
+    lines = [f"{n - len(rows)} of {n} numbers agree with the reference within the uncertainties{missing}"]
     if rows:
         names = [f"{row['table']}/{row['number']}" for row in rows]
         width = 2 + max(map(len, names))
@@ -76,8 +79,9 @@ def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
     """Compare the tables of `folder` with those of `reference` that have the same names.
 
     Two numbers agree where they differ by no more than `COVERAGE` times the root of the sum of squares of
-    their uncertainties. A compared number without one counts as exact. Raises ValueError if the folders have
-    no table and number in common, or a number has another unit; OSError if a table cannot be read or lacks a
+    their uncertainties. A compared number without one counts as exact; ``value`` is NaN of one that the
+    table lacks. Raises ValueError if the folders have no table and number in common, or a number is none, is
+    there twice or has another unit; OSError if a table cannot be read or lacks a
     column.
     """
     import pandas as pd  # which commands that read no table do without
@@ -91,18 +95,31 @@ def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
             continue
         table = tables.read(folder / path.name, READ)
         table = table[[column for column in (*READ, "unit", "uncertainty") if column in table]]
-        both = reference_table.merge(table, on="number", suffixes=("_reference", ""))
+        for name, content in ((Path(reference) / path.name, reference_table), (folder / path.name, table)):
+            _check_numbers(name, content)
+        both = reference_table.merge(table, how="left", on="number", suffixes=("_reference", ""))
         _check_units(folder / path.name, both)
         parts.append(_judged(both).assign(table=path.stem))
-    if not parts or not sum(map(len, parts)):
+    if not any(part.value.notna().any() for part in parts):
         raise ValueError(f"{folder}: has no number in common with {reference}")
     return pd.concat(parts, ignore_index=True)[COLUMNS]
+
+
+def _check_numbers(path: Path, table: "pd.DataFrame") -> None:
+    import pandas as pd
+
+    for column in table.columns.intersection(["value", "uncertainty"]):
+        cells = table[column].dropna()
+        for cell in cells[pd.to_numeric(cells, errors="coerce").isna()]:
+            raise ValueError(f"{path}: {column} = {cell}: must be a number")
+    for number in table.number[table.number.duplicated()]:
+        raise ValueError(f"{path}: number = {number}: is there twice")
 
 
 def _check_units(path: Path, both: "pd.DataFrame") -> None:
     if "unit_reference" not in both:
         return
-    other = both[both.unit.astype(str) != both.unit_reference.astype(str)]
+    other = both[both.value.notna() & (both.unit.astype(str) != both.unit_reference.astype(str))]
     if len(other):
         first = other.iloc[0]
         raise ValueError(f"{path}: {first.number} is in {first.unit}; must be in {first.unit_reference}")

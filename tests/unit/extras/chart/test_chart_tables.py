@@ -32,7 +32,7 @@ def test_a_row_sums_up_a_cell_which_comes_back_from_its_file(config, make_point,
     assert found.divergent_share == pytest.approx(31 / 32)
     assert {entry(name) for name in found.index} <= described_columns(*plugins.files("columns.csv")).keys()
     point, path = make_point(1.0, 2.0), tmp_path / "point.h5"
-    point.measures["peak"][3] = np.nan
+    point.measures["revolutions"][3] = np.nan
     write(path, point, "key", "runs", config)
     again = read(path)
     assert again.case == point.case
