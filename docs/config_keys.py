@@ -27,7 +27,7 @@ change it as any other.
 
 ## Units
 
-A number may be typed with its unit, in a config, on the command line and in Python. It is converted where
+A number may be typed with its unit, in a config, in `bladerub run` and in Python. It is converted where
 it is read; the same study in plain numbers has the same runs.
 
 ```yaml

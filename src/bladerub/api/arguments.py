@@ -47,11 +47,11 @@ def over(*names: str) -> Callable[[Function], Function]:
         @wraps(function)
         def called(*args: Any, **kwargs: Any) -> Any:
             bound = signature.bind(*args, **kwargs)
-            lists = {
-                name: value.tolist() if isinstance(value, np.ndarray) else value
-                for name, value in bound.arguments.items()
-                if name in names and isinstance(value, list | tuple | range | np.ndarray)
-            }
+            of_names = {name: value for name, value in bound.arguments.items() if name in names}
+            for name, value in of_names.items():
+                if isinstance(value, np.ndarray | np.generic):  # of no dimension: a number
+                    bound.arguments[name] = of_names[name] = value.tolist()
+            lists = {k: value for k, value in of_names.items() if isinstance(value, list | tuple | range)}
             results = []
             for values in product(*lists.values()):
                 bound.arguments.update(zip(lists, values, strict=True))

@@ -23,7 +23,7 @@ from bladerub.settings.study import Config
 from bladerub.settings.units import speeds_in_words
 from bladerub.study import maps
 from bladerub.study.divergence import in_a_word, verdicts
-from bladerub.study.grid import CoatingCase
+from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.job import compute_all
 from bladerub.study.maps import CoatingMap
 from bladerub.study.plan import CoatingPlan, planned_run
@@ -158,7 +158,8 @@ class Map(Shown):
     @property
     def _scales(self) -> "Scales":
         engine = plots.scales.Engine(self.f1_hz) if self.f1_hz else None
-        return plots.scales.Scales(engine=engine)
+        unit = modulus_unit(self.config) if self.config else None
+        return plots.scales.Scales(modulus_unit=unit, engine=engine)
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
         return "Map", {
@@ -232,10 +233,10 @@ def simulate_speeds(
     >>> sweep.status.tolist()
     ['completed', 'completed']
     """
-    speeds = [speeds] if isinstance(speeds, float | int | str) else speeds
+    speeds = [speeds] if isinstance(speeds, str) else np.ravel(np.array(speeds, dtype=object)).tolist()
     runs = [coating.at(f_omega) for f_omega in sorted({blade.f_omega(speed) for speed in speeds})]
     if len(runs) < 2:
-        raise InputError("speeds", [run.f_omega for run in runs], "must be a list of two or more")
+        raise InputError("speeds", [run.f_omega for run in runs], "must be two or more different ones")
     blade.check_speed("speeds", runs[-1].f_omega)
     results = solve_all(blade, runs, jobs, follow, progress)
     stored = [run.stored for run in results]
@@ -249,7 +250,7 @@ def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
 ) -> list[Run]:
     """Simulate `runs` of a coating, `jobs` at once, without histories; other arguments as of `simulate`."""
-    if jobs < 1:
+    if not isinstance(jobs, int) or jobs < 1:
         raise InputError("jobs", jobs, "must be at least 1")
     with step("compiling the time loop", progress):
         compile_kernel(runs[0].spec.turns, blade.reduced.n_interface, runs[0].spec.coating.element_law)

@@ -23,7 +23,7 @@ from bladerub.settings.study import Config
 from bladerub.settings.units import speed_in_words
 from bladerub.study import run_set, store
 from bladerub.study.divergence import in_a_word
-from bladerub.study.grid import CoatingCase
+from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.growth import Verdict, judge
 from bladerub.study.manifest import confirmation_path, lists_longer
 from bladerub.study.store import StoredRun
@@ -250,7 +250,8 @@ class Run(Shown):
 
     @property
     def _title(self) -> str:
-        return f"{titles.coating(self.case)}, {titles.speed(self.f_omega)}"
+        unit = modulus_unit(self.config) if self.config else None
+        return f"{titles.coating(self.case, unit)}, {titles.speed(self.f_omega)}"
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
         peaks, longer = self.revolution_peak, self.longer

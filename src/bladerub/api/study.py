@@ -80,6 +80,8 @@ class Study(Shown):
 
         Its ``entry`` is the block ``contact.law`` of a config.
         """
+        if not hasattr(law, "entry"):
+            raise InputError("law", law, "must be a Law")
         values = self.config.plain()
         values["contact"]["law"] = law.entry
         return replace(self, config=typed(values))
@@ -164,7 +166,7 @@ class Study(Shown):
             "interference": interference,
         }
         if friction is None:
-            return self._checked(History, casing, own, E=E, K=K, theta=theta or 0.0)
+            return self._checked(History, casing, own, E=E, K=K, theta=0.0 if theta is None else theta)
         return self._checked(HistoryWithFriction, casing, own, E=E, K=K, friction=friction)
 
     @over("friction", "damping_ratio", "interference")

@@ -14,7 +14,7 @@ from tqdm import tqdm
 
 from bladerub.config import read as configuration
 from bladerub.config import record
-from bladerub.io.errors import BadInput, format_value, message_for
+from bladerub.io.errors import BadInput, DamagedFile, format_value, message_for
 from bladerub.io.folders import base_config, study_folder
 from bladerub.io.plain import plain
 from bladerub.settings import units
@@ -75,11 +75,15 @@ def as_options(**names: str) -> Iterator[None]:
 
 @contextmanager
 def refused(*kinds: type[Exception], because: str = "") -> Iterator[None]:
-    """Turn errors of these kinds into `BadInput`, with the words `because` before their message."""
+    """Turn errors of these kinds into `BadInput`, with the words `because` before their message.
+
+    A damaged file after them is one that the user names, which nothing makes again.
+    """
     try:
         yield
     except kinds as error:
-        text = message_for(error) if isinstance(error, OSError) else str(error)
+        is_own = isinstance(error, OSError) and not (because and isinstance(error, DamagedFile))
+        text = message_for(error) if is_own else str(error)
         raise BadInput(because + text) from error
 
 

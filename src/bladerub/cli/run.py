@@ -63,9 +63,10 @@ def add_to(commands: Any) -> None:
     parser.option("--friction", text, float, metavar="MU")
     text = "of every mode, instead of contact.damping_ratio"
     parser.option("--damping-ratio", text, quantity, metavar="XI")
-    text = "of the abradable coating, m or '4 mm', instead of contact.layer_thickness"
+    text = "of the coating, in contact.scale.length m or '4 mm', instead of contact.layer_thickness"
     parser.option("--layer-thickness", text, quantity, metavar="H")
-    parser.option("--interference", "instead of that of the casing, m or '0.4 mm'", quantity, metavar="D")
+    text = "instead of that of the casing, in contact.scale.length m or '0.4 mm'"
+    parser.option("--interference", text, quantity, metavar="D")
     speed = parser.add_mutually_exclusive_group(required=True)
     text = "speed: normalised, or with a unit, such as 2200rpm or '38 Hz'"
     speed.add_argument("--f", type=quantity, metavar="F_OMEGA", help=text)
@@ -117,7 +118,8 @@ def run(options: argparse.Namespace) -> None:
     if not blade and planned.f_omega > fastest:  # of a blade that may not be built yet
         typed = f" ({speed})" if isinstance(speed, str) else ""
         limit = f"reduction.f_omega_max = {speed_in_words(fastest, kept_frequency(config))}"
-        raise BadInput(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
+        option = "--f" if options.rpm is None else "--rpm"
+        raise BadInput(f"{option} = {planned.f_omega:g}{typed}: must be at most {limit}")
     _point_out(options, planned)
     solver_of(config).check()
     blade = blade or inputs.read_blade(options, config)[0]
@@ -178,6 +180,7 @@ def _figures(planned: "StudyRun", blade: "Blade", result: "Run") -> dict[str, An
         "interference": planned.spec.casing.interference,
         "f_omega": planned.f_omega,
         "revolutions": planned.spec.revolutions,
+        "complete_revolutions": int(result.to_pandas().revolution_amplitude.count()),
         **summary,
         "run_key": result.attributes["run_key"],
         "units": _UNITS | {f"max_{name}": datasets()[name][1] for name in result.layer},
@@ -231,7 +234,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         "growth": _growth_in_words(figures),
         "saturating": ("yes" if figures["saturating"] else "no") + duration,
         "divergent": ("yes" if figures["divergent"] else "no") + duration,
-        "status": f"{figures['status']}, {figures['revolutions']} revolutions",
+        "status": _status_in_words(figures),
         "energy residual": f"{figures['energy_residual']:.2g} of the work exchanged",
         "steps": figures["n_steps"],
     }
@@ -258,6 +261,15 @@ def _coating_in_words(figures: dict[str, Any]) -> str:
         return "none, the casing is rigid"
     unit = figures["modulus_unit"] / 1e6
     return ", ".join(f"{name} = {figures[name]:g} ({figures[name] * unit:.4g} MPa)" for name in ("E", "K"))
+
+
+def _status_in_words(figures: dict[str, Any]) -> str:
+    status, revolutions, complete = (
+        figures[key] for key in ("status", "revolutions", "complete_revolutions")
+    )
+    if status == "completed":
+        return f"{status}, {revolutions} revolutions"
+    return f"{status}, in revolution {complete + 1} of {revolutions}"
 
 
 def _growth_in_words(figures: dict[str, Any]) -> str:

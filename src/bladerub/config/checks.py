@@ -233,13 +233,13 @@ def _revolutions(config: Config) -> Iterator[str]:
 
 @reads("analysis", "coatings", "speeds")
 def _histories(config: Config) -> Iterator[str]:
-    cases, all_speeds = set(grid.coating_cases(config)), set(grid.speeds(config))
+    names, all_speeds = {case.name for case in grid.coating_cases(config)}, set(grid.speeds(config))
     for index, entry in enumerate(config.analysis.histories):
         key, case = f"analysis.histories[{index}]", grid.listed_case(entry)
         f_omega = round(entry.f_omega, grid.SPEED_DECIMALS)
         if (case, f_omega) in HISTORIES:  # the paper's, which a study of other coatings or speeds leaves out
             continue
-        if case not in cases:
+        if case.name not in names:
             yield f"{key} = {case.name}: must be one of the coatings, add it there or drop it here"
         if f_omega not in all_speeds:
             requirement = "one of the speeds, add it to speeds.extra or drop it here"

@@ -49,7 +49,8 @@ class Located(NamedTuple):
             return cls({str(key): cls.of(entry, location) for key, entry in value.items()}, location)
         if isinstance(value, list):
             return cls([cls.of(entry, location) for entry in value], location)
-        return cls(value, location)
+        is_of_numpy = type(value).__module__ == "numpy"
+        return cls.of(value.tolist(), location) if is_of_numpy else cls(value, location)
 
     def plain(self) -> Any:
         """Return the values alone."""

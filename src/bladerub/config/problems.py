@@ -105,7 +105,8 @@ def _place(location: tuple, key: Key, value: Any) -> tuple[list[Any], Key, Key, 
 def _wrong(value: Any, key: Key) -> str:
     """Say what is wrong with a value: another kind of quantity, another unit than is meant, or its size."""
     if key.kind not in NUMBERS:
-        is_single = key.entry and not key.entry.models and (is_number(value) or isinstance(value, str))
+        is_one = is_number(value) or isinstance(value, str)
+        is_single = key.kind == "a list" and not key.entry.models and is_one
         return key.right() + (f"; write [{format_value(value)}]" if is_single and key.sizes[0] < 2 else "")
     if is_number(value):
         return key.right() + key.meant(value)

@@ -50,7 +50,8 @@ class Solver(Section):
     """Instead of a tolerance; central differences need it below the stability limit of the highest mode of
     the blade."""
     displacement_limit: BladeLengths = Field(ge=1e-3, le=1)
-    """Beyond it small displacements are no longer small, and the run ends as unbounded."""
+    """Of an interface node, radial or tangential. Beyond it the run ends as unbounded: small displacements
+    are no longer small."""
     device: Literal[("cpu", *plugins.offered("SOLVERS"))]  # type: ignore[valid-type]
     """What the runs are computed on; a GPU computes many at once. A chaotic run depends on what it is
     computed on, so the runs of the other are stale."""

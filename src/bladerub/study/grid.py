@@ -75,7 +75,9 @@ class CoatingCase:
 
     def with_own(self, **values: float | None) -> "CoatingCase":
         """Return this coating with values of its own for keys of `OWN`; None leaves that of the config."""
-        parts = (f"{sign}{values[key]:.12g}" for key, sign in OWN.items() if values.get(key) is not None)
+        parts = (
+            f"{sign}{values[key] + 0.0:.12g}" for key, sign in OWN.items() if values.get(key) is not None
+        )
         return replace(self, variant="_".join(parts))
 
     @property
@@ -280,6 +282,7 @@ def run_spec(config: Config, case: CoatingCase, f_omega: float) -> RunSpec:
 def keeps_history(config: Config, case: CoatingCase, f_omega: float) -> bool:
     """Return whether the config lists this run among those whose whole displacement is kept."""
     return any(
-        round(entry.f_omega, SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS) and listed_case(entry) == case
+        round(entry.f_omega, SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS)
+        and listed_case(entry).name == case.name
         for entry in config.analysis.histories
     )

@@ -187,7 +187,8 @@ def finished(results: str | Path) -> None:
     results = Path(results)
     n_figures = sum(path.suffix == ".png" for path in results.glob("figures/**/*"))
     figures = "1 figure" if n_figures == 1 else f"{n_figures} figures"
-    _print(f"{figures} in {results / 'figures'}, tables in {results / 'tables'}")
+    tables = f", tables in {results / 'tables'}" if (results / "tables").is_dir() else ""
+    _print(f"{figures} in {results / 'figures'}{tables}")
     for page in sorted(results.glob("*.html")):
         _print(f"open {page} in a browser")
 

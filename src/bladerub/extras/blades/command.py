@@ -12,9 +12,11 @@ import yaml
 from bladerub.cli import inputs
 from bladerub.config import read as configuration
 from bladerub.config.keys import key_of
+from bladerub.config.problems import problems
 from bladerub.extras.blades import origin, section_table, settings
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.origin import MatrixSource, Source
+from bladerub.io.errors import BadInput
 from bladerub.io.folders import base_config, study_folder
 
 if TYPE_CHECKING:  # load numba, NumPy
@@ -70,6 +72,10 @@ def import_blade(options: argparse.Namespace) -> None:
     entry = {kind: str(entry_path)} | asdict(Frame()) | source_settings | option_values
 
     nominal = config.figures.nominal_speed if options.rpm is None else options.rpm
+    figures = config.figures.plain() | ({} if options.rpm is None else {"nominal_speed": nominal})
+    for line in (*problems(entry, settings.Source), *problems(figures, type(config.figures))):
+        name, _, wrong = line.partition(" ")
+        raise BadInput(f"--{name.replace('nominal_speed', 'rpm').replace('_', '-')} {wrong}")
     config = config.replaced("blade.source", settings.Source.model_construct(**entry))
     with inputs.refused(ValueError):
         source = origin.read(config.blade.source)

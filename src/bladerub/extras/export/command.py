@@ -54,7 +54,7 @@ def add_to(commands: Any) -> None:
         "without the centrifugal displacement; time is in revolutions from the start of the run. Of a run "
         "that exceeds the displacement limit, the last complete revolution is written.",
     )
-    parser.option("--run", "the run (HDF5), for --vtu", Path, metavar="FILE")
+    parser.option("--run", "the run (HDF5), for --vtu and --animation", Path, metavar="FILE")
     form = parser.add_mutually_exclusive_group(required=True)
     for option, metavar, text in (*_MOTIONS, *blade_command.FORMS):
         form.add_argument(option, type=Path, metavar=metavar, help=text)

@@ -69,7 +69,7 @@ def doubtful(results: Results) -> pd.DataFrame:
     """Count the runs of each coating to read with care, a column for each reason that occurs."""
     runs = results.runs
     reasons = {
-        f"displacement above {LARGE_DISPLACEMENT:.0%} of the blade length": runs.displacement
+        f"radial displacement of node 1 above {LARGE_DISPLACEMENT:.0%} of the blade length": runs.displacement
         >= LARGE_DISPLACEMENT * results.config.blade.length,
         "ended at the displacement limit": runs.unbounded,
         "chaotic: other starts have another verdict": runs.divergent_draws.between(0, 1, "neither"),

@@ -63,7 +63,7 @@ def ranges(mask: np.ndarray, speeds: np.ndarray, most: int = 3) -> str:
     widest = sorted(sorted(parts, key=lambda part: part[0] - part[1])[:most])
     text = ", ".join(_range(*part) for part in widest)
     if len(parts) > most:
-        text += f" and {len(parts) - most} narrower within {_range(parts[0][0], parts[-1][1])}"
+        text += f" and {len(parts) - most} more within {_range(parts[0][0], parts[-1][1])}"
     return text or NONE
 
 

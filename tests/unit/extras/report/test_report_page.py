@@ -134,5 +134,5 @@ def test_ranges_are_those_of_neighbours():
     speeds = np.arange(10) * 100.0
     mask = np.isin(np.arange(10), [0, 1, 4, 6, 7, 8])
     assert words.ranges(mask, speeds) == "0 to 100, 400, 600 to 800"
-    assert words.ranges(mask, speeds, 1) == "600 to 800 and 2 narrower within 0 to 800"
+    assert words.ranges(mask, speeds, 1) == "600 to 800 and 2 more within 0 to 800"
     assert words.ranges(mask & False, speeds) == words.NONE
