@@ -12,6 +12,7 @@ for figure, small, (colours, shrink) in zip(
     snakemake.input, snakemake.output, snakemake.params.pictures, strict=True
 ):
     with Image.open(figure) as image, atomic.writing(small, "wb") as stream:
-        # by an octree: a median cut gives colours of few pixels up, such as red marks
-        few = image.convert("RGB").reduce(shrink).quantize(colours, Image.Quantize.FASTOCTREE)
+        # a median cut gives up colours of few pixels, such as red marks; an octree makes pale ones white
+        reduced, method = image.convert("RGB").reduce(shrink), Image.Quantize.MAXCOVERAGE
+        few = reduced.quantize(colours, method, kmeans=4)
         few.save(stream, format="PNG", optimize=True)
