@@ -17,7 +17,7 @@ def stress(table: pd.DataFrame, engine: Engine) -> Figure:
 
     `table` is from `bladerub.extras.stress.table`, `engine` the rotor.
     """
-    figure = style.new_figure(style.PAGE, 0.45 * style.PAGE)
+    figure = style.new_figure(style.PAGE, 0.55 * style.PAGE)
     over_speed, over_displacement = figure.subplots(1, 2)
     looks = zip(cycle("os^vDP"), cycle(_COLOURS), strict=False)
     for (order, rows), (marker, colour) in zip(table.groupby("order"), looks, strict=False):
