@@ -21,10 +21,14 @@ _ROWS, _COLUMNS = (0, 1, 2, 0, 1, 2), (0, 1, 2, 1, 2, 0)
 _KINDS = ("von_mises", "principal", "alternating")
 _LEADING = 3
 """Coordinates that cause most stress: all nodes are looked at first in extremes of them and their sums."""
-_FEW = 2
+_FEW = 16
 """Nodes that are then looked at in all instants for each kind of stress."""
-_INSTANTS = 8
-"""Instants of largest stress there at which all nodes are looked at again."""
+_INSTANTS = 32
+"""Instants of largest stress there at which all nodes are looked at again.
+
+With 2 nodes and 8 instants the largest stress was missed in 3 of 160 parts of runs, by up to 2 %; with these
+in none.
+"""
 
 
 class ModalStress(NamedTuple):
@@ -101,7 +105,8 @@ def stress_peaks(
     else on the safe side.
     """
     starts = [_largest(stress(extreme))[0] for extreme in _extremes(stress, coordinates, parts)]
-    nodes = np.unique([np.argpartition(start, -_FEW)[:, -_FEW:] for start in starts])
+    few = min(_FEW, stress.points.shape[0])
+    nodes = np.unique([np.argpartition(start, -few)[:, -few:] for start in starts])
     peaks: list[dict[str, tuple[float, int, int]]] = [{} for _ in parts]  # stress, node, instant of each kind
     visited = {*nodes.tolist()}
     while nodes.size:
