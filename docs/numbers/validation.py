@@ -39,6 +39,8 @@ def _accuracy(accuracy):
     drawn = rows(accuracy, drawn_from="all")
     within = (drawn["error_wear_l2"] <= _LIMIT) & (drawn["error_peak"] <= _LIMIT)
     return {
+        "calm": fixed((~drawn["sensitive"]).sum()),
+        "accurate_calm": fixed((within & ~drawn["sensitive"]).sum()),
         "drawn": fixed(len(drawn)),
         "accurate": fixed(within.sum()),
         "wear_error": f"{drawn['error_wear_l2'].median():.0e}",

@@ -21,7 +21,7 @@ def numbers(tables):
         "reversed_below": fixed(reversed_["f_omega"].max(), 3),
         "reversed_steps": percent(friction["reversed_coulomb"].max()),
         "difference_reversed": percent(alike["difference"].abs().max(), 1),
-        "difference_others": f"{others['difference'].abs().max():.0e}",
+        "difference_others": percent(others["difference"].abs().max(), 1),
         "beyond": fixed(len(rows(beyond, status_coulomb="unbounded"))),
         "beyond_one_law": fixed((friction["status_theta"] != friction["status_coulomb"]).sum()),
     }
