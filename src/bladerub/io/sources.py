@@ -4,7 +4,7 @@ import ast
 import hashlib
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Set
 from functools import cache
 from pathlib import Path
 
@@ -18,23 +18,23 @@ def files_behind(*modules: str) -> list[str]:
     """List the source files of modules and of what they import, directly or not, from their own subpackages.
 
     Snakemake does not follow imports. What is computed in other subpackages reaches a rule by the files that
-    it reads; extras compute with all the core themselves, so theirs are those of `COMPUTING` as well. Modules
-    are named below ``bladerub``, such as ``"study.maps"``. The paths are sorted, and those of the repository
-    if it is the working directory.
+    it reads. Extras compute with the core themselves: of theirs, imports from `COMPUTING` are followed, too.
+    Modules are named below ``bladerub``, such as ``"study.maps"``. The paths are sorted, and those of the
+    repository if it is the working directory.
     """
     repository = PACKAGE.parents[1]
-    names = ((path, path.relative_to(repository)) for path in _paths_behind(modules))
+    further = COMPUTING if any(module.startswith("extras.") for module in modules) else set()
+    names = ((path, path.relative_to(repository)) for path in _paths_behind(modules, further))
     return sorted((name if name.is_file() else path).as_posix() for path, name in names)
 
 
 def digest_behind(*modules: str) -> str:
-    """Digest the sources that `files_behind` lists."""
+    """Digest the sources of modules and of what they import, from their own subpackages alone."""
     return source_digest(_paths_behind(modules))
 
 
-def _paths_behind(modules: Iterable[str]) -> set[Path]:
-    subpackages = {module.partition(".")[0] for module in modules}
-    subpackages |= COMPUTING if "extras" in subpackages else set()
+def _paths_behind(modules: Iterable[str], further: Set[str] = frozenset()) -> set[Path]:
+    subpackages = {module.partition(".")[0] for module in modules} | further
     paths, queue = set(), list(modules)
     while queue:
         path = _path_of(queue.pop())
