@@ -197,7 +197,7 @@ rule rotor37_coating:
 
 
 PICTURES["rotor37_images"] = {
-    f"studies/rotor37/images/rotor37_{name}.png": Picture(f"{ROTOR37}/figures/{name}.png", 12)
+    f"studies/rotor37/images/rotor37_{name}.png": Picture(f"{ROTOR37}/figures/{name}.png", 48)
     for name in ("response", "direct", "spectrum_coated", "wear_straight")
 }
 
