@@ -47,10 +47,9 @@ def penetration(approach, relief, initial_gap, wear):
 
 @inlined
 def is_above(tip, radial, tangential, approach, minimum_gap):
-    """Whether all nodes are surely above the lowest surface in reach."""
-    return all_lanes(
-        (approach <= minimum_gap) & (absolute(tangential) <= tip.search_range) & (radial > -tip.limit)
-    )
+    """Whether all nodes are surely above the lowest surface in reach, and within the limit."""
+    in_reach = (absolute(tangential) <= tip.search_range) & (absolute(radial) <= tip.limit)
+    return all_lanes((approach <= minimum_gap) & in_reach)
 
 
 @inlined

@@ -60,7 +60,7 @@ def tip_record(blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE) -> record
         lever=by_lane(radius),
         half_width=spec.tip.half_width,
         curvature=spec.tip.curvature,
-        search_range=SEARCH_RANGE / float(np.max(per_metre)),
+        search_range=min(SEARCH_RANGE / float(np.max(per_metre)), spec.displacement_limit),
         limit=spec.displacement_limit,
     )
     return aligned(tip)

@@ -161,6 +161,8 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     """
     touching = False
     within = True
+    if not step.touched:  # the forces before are of an older contact
+        clear(address_of(state.force, 3 * LANES), 3 * LANES)
     if modal.corrects and step.touched:  # the last correction moved the tip after its limit was checked
         within = is_within_limit(tip, load(rows.u, 0), load(rows.u, LANES))
     if within and clear_of_casing:
@@ -175,10 +177,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
             within = find_forces(modal, stator, tip, step.travel, state, rows.u_next, False)
         touching = within and largest_lane(load(state.normal_force, 0)) > 0.0
     if not within:
-        if step.touched:
-            copy(address_of(state.force, 3 * LANES), state.force, 3 * LANES)
-        else:  # those before are of an older contact
-            clear(state.force, 3 * LANES)
+        copy(address_of(state.force, 3 * LANES), state.force, 3 * LANES)
         return False, False
     if touching or step.touched:
         update_coating(modal, stator, tip, step.travel, step.per_step, state, rows.u_next, rows.u)

@@ -75,14 +75,15 @@ class RowSimulation:
         while travel < n:
             part = np.ascontiguousarray(displacement[:, travel : travel + at_once])
             over = (self.first + first + travel) % blade.stator.n_elements
-            n_passed = _integrate_row(
+            n_passed, within = _integrate_row(
                 *(self._kinds, self._rows, blade.steps_per_element, over, self.begins - first - travel),
                 *(part, counts, ranges, self.coupling, self.work),
             )
             displacement[:, travel : travel + at_once] = part
-            self._rest(first + travel, n_passed)
+            if within or len(self.blades) > 1:  # a single run that ends does not rest, either
+                self._rest(first + travel, n_passed)
             travel += n_passed
-            if n_passed < part.shape[1]:
+            if not within:
                 break
         return travel, [
             Progress(*map(int, count), *map(float, extent))
@@ -145,7 +146,7 @@ def _integrate_row(
     element, within = 0, True
     while element < n_elements and within:
         if is_coupled:
-            _couple(coupling, kinds, modals, states, work)
+            _couple(coupling, kinds, modals, states, work, begins, element)
         together = 1
         for b in range(n_blades):
             if element < begins[b]:
@@ -177,10 +178,10 @@ def _integrate_row(
             ranges[b, 1] = max(ranges[b, 1], highest)
             within = within and n_steps == together * steps_per_element
         if is_coupled:
-            _couple(coupling, kinds, modals, states, work)
+            _couple(coupling, kinds, modals, states, work, begins, element)
             is_flying[:] = False  # what `reach` bounds was the motion without the impulse
         element += together
-    return element
+    return element, within
 
 
 @inlined
@@ -190,7 +191,7 @@ def _row(rows, b):
 
 
 @within
-def _couple(coupling, kinds, modals, states, work):
+def _couple(coupling, kinds, modals, states, work, begins, element):
     """Change the velocities by half an impulse of the disk, and enter its work.
 
     A velocity stands in the coordinates of one step before; so does that of the tip, whose path the work of
@@ -198,6 +199,8 @@ def _couple(coupling, kinds, modals, states, work):
     """
     n_modes, n_blades = coupling.backward.shape
     for b in range(n_blades):
+        if element < begins[b]:  # it is held
+            continue
         modal, state = record_at(kinds.modal, _row(modals, b)), record_at(kinds.state, _row(states, b))
         tip_before = address_of(state.u, 4 * LANES)
         for k in range(n_modes):
