@@ -13,9 +13,8 @@ UNBALANCED = 1e-3
 class Energy:
     """Energy ledger of the run, J.
 
-    The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential + work_couple``, but for
-    what central differences damp in contact.
-    Blade and casing:
+    The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential + work_couple``;
+    central differences miss what they damp in contact. Blade and casing:
     ``kinetic + elastic − initial + damping + stored + wear + sliding = work_shape + work_rotation``.
     """
 

@@ -14,9 +14,9 @@ What a scheme promises, and `bladerub.contact.kernel.loop.Simulation.advance` ca
 4. A scheme chooses which modes it resolves. The others respond to a force by their static
    displacement, which is part of the compliance.
 5. Blade energy ``Σ kinetic (q⁺ − q)² + ½ ω² q⁺ q + ½ F⁺ · C F``, C the compliance of modes not resolved,
-   changes by the work ``F · (u⁺ − u⁻) / 2`` less the damping ``Σ loss (q⁺ − q⁻)²``, to rounding where a scheme
-   does not correct: the ledger of a run judges contact and step, not the bookkeeping of the blade. Where it
-   does, F moved the tip a step before, and the ledger misses the artificial damping of contact, too.
+   changes by the work ``F · (u⁺ − u⁻) / 2`` less the damping ``Σ loss (q⁺ − q⁻)²``, to rounding where a
+   scheme does not correct: the ledger of a run judges contact and step, not the bookkeeping of the blade.
+   Where it does, F moved the tip a step before, and the ledger misses the artificial damping, too.
 
 `exponential` is of second order in h and exact for free motion. `central_differences` is of first order, has
 a highest mode to resolve, and damps contact artificially.
