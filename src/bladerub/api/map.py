@@ -233,7 +233,8 @@ def simulate_speeds(
     >>> sweep.status.tolist()
     ['completed', 'completed']
     """
-    speeds = [speeds] if isinstance(speeds, str) else np.ravel(np.array(speeds, dtype=object)).tolist()
+    speeds = np.ravel(speeds).tolist() if isinstance(speeds, np.ndarray) else speeds
+    speeds = [speeds] if isinstance(speeds, float | int | str) else speeds
     runs = [coating.at(f_omega) for f_omega in sorted({blade.f_omega(speed) for speed in speeds})]
     if len(runs) < 2:
         raise InputError("speeds", [run.f_omega for run in runs], "must be two or more different ones")

@@ -63,9 +63,9 @@ def add_to(commands: Any) -> None:
     parser.option("--friction", text, float, metavar="MU")
     text = "of every mode, instead of contact.damping_ratio"
     parser.option("--damping-ratio", text, quantity, metavar="XI")
-    text = "of the coating, in contact.scale.length m or '4 mm', instead of contact.layer_thickness"
+    text = "instead of contact.layer_thickness: '4 mm', or in m times contact.scale.length"
     parser.option("--layer-thickness", text, quantity, metavar="H")
-    text = "instead of that of the casing, in contact.scale.length m or '0.4 mm'"
+    text = "instead of that of the casing: '0.4 mm', or in m times contact.scale.length"
     parser.option("--interference", text, quantity, metavar="D")
     speed = parser.add_mutually_exclusive_group(required=True)
     text = "speed: normalised, or with a unit, such as 2200rpm or '38 Hz'"

@@ -45,7 +45,7 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
         origin=_origin(results),
         citation=_citation(),
         shown=shown,
-        step=float(np.diff(np.unique(results.runs.rpm)).min()),
+        step=np.diff(np.unique(results.runs.rpm)).min(initial=np.inf),
         runs=dict(list(results.runs.groupby("name"))),
         doubts=doubts(results.accuracy, config.figures.nominal_speed),
         is_of_config=results.origin.get("provenance_config_sha256") == config_digest(config.plain()),
