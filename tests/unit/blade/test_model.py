@@ -75,11 +75,14 @@ def test_turn_about_the_axis_of_rotation_has_its_angle_as_slope():
 def test_what_is_no_blade_is_named(blade, tmp_path):
     broken, path = blade.mass.copy(), tmp_path / "blade.h5"
     broken[3, 4] = np.nan
+    stacked = blade.node_position * [0.0, 1.0, 1.0]
     for changes, words in (
         ({"mass": broken}, "mass: must be finite"),
         ({"stiffness_2": np.triu(blade.stiffness_2)}, "stiffness_2: must be symmetric"),
         ({"mass": -blade.mass}, "mass: must be positive definite"),
         ({"length": -0.2}, "length = -0.2: "),
+        ({"node_position": stacked}, "node_position: must go on along the axis"),
+        ({"f1_hz": 2 * np.pi * blade.f1_hz}, "f1_hz = .*: must be the lowest frequency at rest"),
     ):
         write_reduced_blade(path, dataclasses.replace(blade, **changes), {})
         with pytest.raises(ValueError, match=f"not a valid reduced blade.* {words}"):

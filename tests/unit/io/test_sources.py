@@ -41,7 +41,7 @@ FILES = {
     "contact/run.py": "",
     "extras/a.py": "from bladerub.extras.b import x\ndef f():\n    from bladerub.extras.c import y\n",
     "extras/b.py": "",
-    "extras/c.py": "",
+    "extras/c.py": "from bladerub.contact import run\nfrom bladerub.io import atomic\n",
 }
 STUDY = ["study/__init__.py", "study/findings/claim.py", "study/grid.py", "study/maps.py"]
 
@@ -115,6 +115,7 @@ def test_imports_are_followed_within_the_subpackages_of_the_modules(tmp_path, mo
         (["study.maps"], STUDY),
         (["study.maps", "io.hdf5"], ["io/atomic.py", "io/hdf5.py", *STUDY]),
         (["io.atomic"], ["io/atomic.py"]),
+        (["extras.c"], ["contact/run.py", "extras/c.py"]),
     ):
         assert sources.files_behind(*modules) == [f"src/bladerub/{name}" for name in behind]
     assert sources.extras_behind("from bladerub.extras.a import z\n") == {"a", "b"}
