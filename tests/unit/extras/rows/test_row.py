@@ -111,6 +111,13 @@ def test_a_disk_couples_the_blades_as_in_the_plain_model(blade, spec, change):
     np.testing.assert_allclose(row.wear, wear, rtol=0, atol=1e-3 * wear.max())
 
 
+def test_a_disk_moves_no_blade_that_is_held(blade, spec):
+    spec = dataclasses.replace(spec, initial_displacement=2e-5)
+    for each in simulate_row(blade, spec, Row.even(3, disk=Disk.ring(3, [0.2]))).blades:
+        first = np.flatnonzero(each.radial_displacement)[:2]  # the last one is let go after 82 elements
+        np.testing.assert_allclose(each.radial_displacement[first], 2e-5, rtol=5e-3)
+
+
 def test_coupled_frequencies_are_those_of_the_cyclic_closed_form_and_of_the_whole_row(blade):
     n_blades, coupling, f_omega = 7, [0.05, 0.003], 0.3
     row, modes = Row.even(n_blades, disk=Disk.ring(n_blades, coupling)), modes_at(blade, f_omega)
