@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_FROM_REST = Annotated[Speed, Field(ge=0, le=2)]
+
 
 @dataclass(frozen=True, repr=False)
 class Blade(Shown):
@@ -120,7 +122,7 @@ class Blade(Shown):
         """
         try:
             plain = number("f_omega", speed, references(None, self.f1_hz))
-            return checked_quantity(plain, Annotated[Speed, Field(ge=0, le=2)])
+            return checked_quantity(plain, _FROM_REST)
         except ValueError as error:
             raise InputError("speed", speed, str(error)) from None
 

@@ -1,7 +1,6 @@
 """What can be asked of a study: one of its coatings, and one run."""
 
 from dataclasses import dataclass, field, replace
-from numbers import Integral
 
 from bladerub.api.arguments import InputError, over
 from bladerub.blade.cache import first_frequency, kept_frequency
@@ -138,11 +137,11 @@ def _moduli(config: Config, case: CoatingCase) -> str:
 def _of_revolutions(config: Config, revolutions: int) -> Config:
     """Change a config to runs of so many revolutions: its analysis looks at no more."""
     limit = min(_MOST_REVOLUTIONS, most_revolutions(config))
-    if not isinstance(revolutions, Integral) or not 2 <= revolutions <= limit:
+    if not isinstance(revolutions, int) or not 2 <= revolutions <= limit:
         raise InputError("revolutions", revolutions, f"must be a whole number from 2 to {limit}")
     spectrum, growth = config.analysis.spectrum_revolutions, config.analysis.divergence.revolutions
     return (
-        config.replaced("solver.revolutions", int(revolutions))
+        config.replaced("solver.revolutions", revolutions)
         .replaced("analysis.spectrum_revolutions", min(spectrum, revolutions))
         .replaced("analysis.divergence.revolutions", max(3, min(growth, revolutions)))  # or no valid config
     )

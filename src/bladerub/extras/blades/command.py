@@ -72,8 +72,8 @@ def import_blade(options: argparse.Namespace) -> None:
     entry = {kind: str(entry_path)} | asdict(Frame()) | source_settings | option_values
 
     nominal = config.figures.nominal_speed if options.rpm is None else options.rpm
-    figures = config.figures.plain() | ({} if options.rpm is None else {"nominal_speed": nominal})
-    for line in (*problems(entry, settings.Source), *problems(figures, type(config.figures))):
+    figure_settings = config.figures.plain() | ({} if options.rpm is None else {"nominal_speed": nominal})
+    for line in (*problems(entry, settings.Source), *problems(figure_settings, type(config.figures))):
         name, _, wrong = line.partition(" ")
         raise BadInput(f"--{name.replace('nominal_speed', 'rpm').replace('_', '-')} {wrong}")
     config = config.replaced("blade.source", settings.Source.model_construct(**entry))
