@@ -31,6 +31,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
                 casing with that key
 ``AGREEMENTS``  functions that yield the problems of a config that has a section, by its name
                 (`bladerub.config.checks.reads`)
+``NOTES``       functions that list what is worth knowing of a valid config, a line each
 ``FORECASTS``   what says how much a plan of Snakemake computes, and how long: modules with `announce` and
                 `announce_at_exit`
 ``REMEDIES``    what cures Snakemake: modules with `begin`, called when an invocation is planned, and

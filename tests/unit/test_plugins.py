@@ -21,7 +21,7 @@ from bladerub.settings.study import required
 
 PROGRAM = """
 import sys
-import bladerub, bladerub.api.run, bladerub.cli.status
+import bladerub, bladerub.api.run
 from bladerub.cli import parser
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import read
@@ -59,7 +59,7 @@ def test_the_core_does_without_extras_and_refuses_their_keys_in_a_line(tmp_path)
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     text = subprocess.check_output(command, env=environment, cwd=tmp_path, text=True)
     commands, names, keys, *problems = text.splitlines()
-    assert commands.split() == ["new", "run", "status"]
+    assert commands.split() == ["run"]
     assert "Rig" not in names
     assert "simulate" in names
     assert set(keys.split()) == required()

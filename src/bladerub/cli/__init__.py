@@ -1,6 +1,6 @@
 """The command ``bladerub``: each of its commands is a module with `add_to`, which names its options.
 
-Commands of `bladerub.extras` come after those of the study (`bladerub.plugins`).
+All but ``run`` are of `bladerub.extras` (`bladerub.plugins`).
 """
 
 import argparse
@@ -10,14 +10,12 @@ from io import TextIOWrapper
 from typing import Any
 
 from bladerub import __version__, plugins
-from bladerub.cli import new, run, status
+from bladerub.cli import run
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, exit_on_error, message_for
 from bladerub.io.folders import provide_for_unknown_user
 from bladerub.io.garbage import collect_seldom
-
-_COMMANDS = (new, run, status)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -25,8 +23,7 @@ def parser() -> argparse.ArgumentParser:
     root = Parser("bladerub", description="Contact of a compressor blade with its abradable coating.")
     root.add_argument("--version", action="version", version=f"bladerub {__version__}")
     commands = root.add_subparsers(title="commands", dest="name", required=True, metavar="COMMAND")
-    for command in _COMMANDS:
-        command.add_to(commands)
+    run.add_to(commands)
     for name, place in plugins.offered("COMMANDS").items():
         if name in commands.choices:
             raise plugins.MissingPart(f"{place}: {name}: is a command of bladerub, must have another name")

@@ -170,7 +170,7 @@ def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[s
     """Read and check the study's config with the files of ``--config`` laid over it.
 
     Without ``--config``, those are laid over it that made the results (`bladerub.config.record`). Returns the
-    lines of `bladerub.config.notes` as well.
+    notes of it as well.
     """
     base = base_config()
     made_with = None if options.config else _made_with(base)

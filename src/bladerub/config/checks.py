@@ -101,15 +101,18 @@ def _stable_steps(config: Config) -> Iterator[str]:
     key = next((name for name in ("max_time_step", "steps_per_element") if getattr(solver, name)), None)
     if solver.scheme != "central_differences" or key is None:  # by the tolerance they are stable
         return
-    from bladerub.blade.validation import read_reduced_blade  # as the rest, needed for this scheme alone
+    from bladerub.blade.files import is_built  # as the rest, needed for this scheme alone
+    from bladerub.blade.validation import read_reduced_blade
     from bladerub.contact.modes import mode_shapes_at
     from bladerub.contact.steps import own_steps
-    from bladerub.study.inventory import current_blade
 
     model = study_folder() / config.results / "blade" / "reduced_model.h5"
-    if current_blade(config, model)[0] is None:
+    try:
+        if not is_built(config, model):
+            return
+        blade, n_elements = read_reduced_blade(model), config.contact.elements
+    except OSError:  # damaged
         return
-    blade, n_elements = read_reduced_blade(model), config.contact.elements
     longest = (solver.max_time_step or math.inf) * config.contact.plugged("scale", grid.UNSCALED).time
     for f_omega in grid.speeds(config):
         passage = 1 / (f_omega * blade.f1_hz * n_elements)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bladerub import plugins
 from bladerub.config import files
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem, top_key
 from bladerub.config.files import Located
@@ -41,7 +42,7 @@ def read_with_notes(
     source: str = "--config",
     is_checked: bool = False,
 ) -> "tuple[Config, list[str]]":
-    """Read a config as `read`; return it, and the lines of `bladerub.config.notes`.
+    """Read a config as `read`; return it, and a line for each thing that is worth knowing of it (``NOTES``).
 
     One that `is_checked`, as by the process that started this one, is not checked again and has no notes.
     """
@@ -54,9 +55,8 @@ def read_with_notes(
 
         return typed(converted(located)[0].plain()), []
     config = validate(located)
-    from bladerub.config.notes import notes
-
-    return config, [*(f"{name}: left out, what reads it is not installed" for name in absent), *notes(config)]
+    notes = (note for list_notes in plugins.loaded("NOTES").values() for note in list_notes(config))
+    return config, [*(f"{name}: left out, what reads it is not installed" for name in absent), *notes]
 
 
 def vary(config: "Config", *variations: Located) -> Located:

@@ -27,7 +27,7 @@ def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[
     `workflow` is that of the Snakefile, `config` as Snakemake has it before any ``configfile``: what the
     command line says, or ``config`` of the ``module`` statement of another Snakefile. That is laid over the
     config of the study here, or of the paper where there is none; files and values of the command line are
-    then of the other workflow. Returns the checked config, the lines of `bladerub.config.notes`, and what was
+    then of the other workflow. Returns the checked config, the notes of it, and what was
     laid over the config of the study. Raises `ConfigError` as `bladerub.config.read.read`.
     """
     settings = workflow.config_settings

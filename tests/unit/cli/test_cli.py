@@ -168,6 +168,6 @@ def test_every_text_can_be_printed_in_any_locale(monkeypatch):
     text = "θ = 0.15, 10 µm, M\udcfcller.inp"  # a name of other bytes
     stream = io.TextIOWrapper(io.BytesIO(), "ascii")
     monkeypatch.setattr(sys, "stdout", stream)
-    monkeypatch.setattr("bladerub.cli.status.status", lambda options: print(text))
+    monkeypatch.setattr("bladerub.extras.status.command.status", lambda options: print(text))
     assert main(["status"]) == 0
     assert stream.buffer.getvalue() == f"{text}\n".encode("utf-8", "surrogateescape")

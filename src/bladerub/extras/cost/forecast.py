@@ -7,6 +7,7 @@ from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any
 
+from bladerub.extras import inventory
 from bladerub.extras.job_times import (
     GROWING,
     SECONDS_AT_FIRST,
@@ -15,7 +16,6 @@ from bladerub.extras.job_times import (
 )
 from bladerub.io.errors import message_for
 from bladerub.settings.study import Config
-from bladerub.study import inventory
 from bladerub.study.grid import coating_cases
 from bladerub.study.plan import CoatingPlan, coating_plan
 from bladerub.workflow.cores import costs_of

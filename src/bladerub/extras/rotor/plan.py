@@ -8,13 +8,13 @@ from typing import Any
 
 from bladerub.config.errors import ConfigError
 from bladerub.extras import plans
+from bladerub.extras.inventory import Inventory, take
 from bladerub.extras.rotor.settings import Group, RotorPlan
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.rows.study import drawn
 from bladerub.io.folders import study_folder
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec, speed_name
-from bladerub.study.inventory import Inventory, take
 from bladerub.study.plan import CoatingPlan, planned_run
 
 _LISTS = ("f_omega", "blades", "length_scatter", "frequency_scatter", "coupling")

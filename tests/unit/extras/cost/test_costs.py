@@ -3,10 +3,10 @@ import re
 import pandas as pd
 from study_fixtures import changed
 
+from bladerub.extras import inventory
 from bladerub.extras.cost.forecast import forecast
 from bladerub.extras.cost.jobs import COLUMNS, cost, table
 from bladerub.extras.job_times import GROWING, SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION
-from bladerub.study import inventory
 from bladerub.workflow.cores import costs_of
 
 RECORD = (

@@ -45,7 +45,7 @@ def status(options: argparse.Namespace) -> int:
 
     from bladerub.blade.cache import kept_frequency
     from bladerub.contact.result import UNBALANCED
-    from bladerub.study import inventory
+    from bladerub.extras import inventory
     from bladerub.study.grid import coating_cases, speeds
     from bladerub.study.plan import coating_plan
 

@@ -10,8 +10,8 @@ import pytest
 from study_fixtures import changed
 
 from bladerub.contact.result import Energy
+from bladerub.extras.inventory import COUNTS, take
 from bladerub.io import hdf5
-from bladerub.study.inventory import COUNTS, take
 from bladerub.study.manifest import write_manifest
 from bladerub.study.plan import coating_plan
 from bladerub.study.store import read_run

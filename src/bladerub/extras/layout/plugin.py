@@ -1,0 +1,3 @@
+"""A folder with a study of one's own."""
+
+COMMANDS = {"new": "extras.layout.command"}

@@ -1,0 +1,3 @@
+"""What is worth knowing of a valid config."""
+
+NOTES = {"study": "extras.notes.study:notes"}

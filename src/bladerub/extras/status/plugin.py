@@ -1,0 +1,3 @@
+"""What of a study is done, counted on disk."""
+
+COMMANDS = {"status": "extras.status.command"}
