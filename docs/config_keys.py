@@ -1,6 +1,7 @@
 """The page of all keys of a config, docs/config.md, written from the models and the study's values."""
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from bladerub.config.keys import Key, key_of
@@ -8,61 +9,21 @@ from bladerub.settings.study import whole
 from bladerub.settings.units import choices_by_kind
 
 _LONG = 60  # letters of a description that is written once
-HEAD = """\
-# Configuration
-
-The values of the study are in `config/config.yaml`. A file of your own needs only the keys that it changes
-([what is laid over what](how-to/vary_the_study.md#a-study-in-a-file-of-your-own)). `bladerub config my.yaml`
-checks it.
-
-Editors that know YAML schemas complete keys and mark mistakes with
-`# yaml-language-server: $schema=config/schema.json` in its first line (the path is relative to the file).
-
-Each line has a key, the value of the study, in parentheses what is allowed and the unit of a plain number,
-and the reason. f1 is the first frequency at rest, modulus_unit is `contact.modulus_unit`. `[]` stands for
-each entry of a list, `<name>` for any name. A relative path is relative to the folder that Snakemake runs in.
-
-A section that `config/config.yaml` does not have, such as `chart`, belongs to a further study; a file may
-change it as any other.
-
-## Units
-
-A number may be typed with its unit, in a config, in `bladerub run` and in Python. It is converted where
-it is read; the same study in plain numbers has the same runs.
-
-```yaml
-speeds: {{start: 2000 rpm, stop: 4500 rpm, step: 50 rpm}}
-contact: {{layer_thickness: 6 mm}}
-coatings:
-  - {{casing: 2nd, E: [300 MPa, 1.2 GPa], K: [300 MPa], theta: [8 deg]}}
-```
-
-| quantity | units |
-|---|---|
-{units}
-
-* A speed in rpm is divided by the first frequency of the blade of the config, which is computed once.
-* Speeds of a study have six decimals, about 0.01 rpm. Each speed of a grid in rpm is rounded by itself, so
-  that `--f "5000 rpm"` is the run of a grid with 5000 rpm in it.
-* E, K and `contact.yield_stress` in Pa are divided by `contact.modulus_unit`. `contact.scale` multiplies
-  plain numbers alone: a quantity with a unit is what it says.
-* A plan of rows of blades or rigs may have units, too; factors of a plan and what `sets` give them may not.
-
-"""
+PAGE = Path(__file__).parent / "config.md"
+MARK = "<!-- written by `snakemake config_reference` from here on -->\n"
 
 
-def reference(config: Mapping[str, Any]) -> str:
-    """Write the reference in Markdown: a section for each key at the top, a line for each key below it.
+def updated(page: str, config: Mapping[str, Any]) -> str:
+    """Return the text of the page with today's units, and a section for each key at the top of a config.
 
     `config` is the study, for the values that a config without that key has.
     """
-    units_of_kinds = "\n".join(f"| {kind} | {names} |" for kind, names in choices_by_kind().items())
-    sections = [HEAD.format(units=units_of_kinds)]
+    sections = [f"| {kind} | {names} |" for kind, names in choices_by_kind().items()]
     described: dict[str, str] = {}
     for name, key in key_of(whole()).fields().items():
         lines = [_line(*keys, described) for keys in _keys(name, key, config.get(name))]
-        sections.append("\n".join([f"## {name}", "", key.description, "", *lines, ""]))
-    return "\n".join(sections)
+        sections += ["", f"## {name}", "", key.description, "", *lines]
+    return "\n".join([page.partition(MARK)[0] + MARK, "| quantity | units |", "|---|---|", *sections, ""])
 
 
 def _keys(path: str, key: Key, value: Any) -> Iterator[tuple[str, Key, Any]]:

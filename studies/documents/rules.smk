@@ -9,7 +9,7 @@ rule config_reference:
         page="docs/config_keys.py",
         writing=files_behind("config.keys", "settings.study"),
     output:
-        reference="docs/config.md",
+        reference=update("docs/config.md"),
         schema="config/schema.json",
     log:
         f"{RESULTS}/logs/config_reference.log",

@@ -11,9 +11,10 @@ sys.path.insert(0, str(Path.cwd()))  # for docs
 from bladerub.config.read import load
 from bladerub.extras.config import json_schema
 from bladerub.io import atomic
-from docs.config_keys import reference
+from docs import config_keys
 
-texts = {"reference": reference(load(snakemake.input.config)), "schema": json_schema.text()}
+page = config_keys.updated(config_keys.PAGE.read_text("utf-8"), load(snakemake.input.config))
+texts = {"reference": page, "schema": json_schema.text()}
 for name, text in texts.items():
     with atomic.writing(snakemake.output[name]) as stream:
         stream.write(text)
