@@ -46,11 +46,8 @@ def check(config: Config, broken: Collection[str]) -> list[str]:
     A check is left out if it reads a section in `broken`, or one with a problem already found.
     """
     problems: list[str] = []
-    added = [
-        function
-        for section, function in plugins.loaded("AGREEMENTS").items()
-        if config.plugged(section) is not None
-    ]
+    plugged = plugins.loaded("AGREEMENTS").items()
+    added = [function for section, function in plugged if config.plugged(section) is not None]
     for function in (*_CHECKS, *added):
         if not function.sections & {*broken, *map(top_key, problems)}:  # type: ignore[attr-defined]
             try:
@@ -143,12 +140,18 @@ def _tables(config: Config) -> Iterator[str]:
 
 
 @reads("casings", "contact", "blade", "coatings")
-def _contact_at_all(config: Config) -> Iterator[str]:
+def _depths(config: Config) -> Iterator[str]:
+    """Check that the blade touches every coating, not all around, and does not reach through it."""
     cases = grid.coating_cases(config)
     for name in config.casings:
         depths = [case.own.get("interference") for case in cases if case.casing == name]
-        if not depths or None in depths:  # or each coating says how deep, see `own_problem`
+        if not depths or None in depths:  # or each coating says how deep
             yield from casing_problems(config, name)
+    for index, entry in enumerate(config.coatings):
+        for case in grid.cases_of(entry) if grid.OWN.keys() & entry.model_fields_set else ():
+            if problem := own_problem(config, case):
+                key, bound = problem
+                yield f"coatings[{index}].{key} = {case.own[key]:g}: must be {bound}"
 
 
 def casing_problems(config: Config, name: str) -> Iterator[str]:
@@ -200,15 +203,6 @@ def own_problem(config: Config, case: grid.CoatingCase) -> tuple[str, str] | Non
     return ("interference", bound) if bound else None
 
 
-@reads("casings", "contact", "blade", "coatings")
-def _own_values(config: Config) -> Iterator[str]:
-    for index, entry in enumerate(config.coatings):
-        for case in grid.cases_of(entry) if grid.OWN.keys() & entry.model_fields_set else ():
-            if problem := own_problem(config, case):
-                key, bound = problem
-                yield f"coatings[{index}].{key} = {case.own[key]:g}: must be {bound}"
-
-
 @reads("coatings", "speeds")
 def _runs(config: Config) -> Iterator[str]:
     n_speeds = len(grid.speeds(config))
@@ -251,18 +245,19 @@ def _histories(config: Config) -> Iterator[str]:
 
 @reads("analysis", "casings", "coatings", "speeds")
 def _crossings(config: Config) -> Iterator[str]:
-    fastest, orders = grid.speeds(config)[-1], {}
+    fastest = grid.speeds(config)[-1]
     for name in used_casings(config):
         has_orders = config.casings[name].peak_orders
         key = f"casings.{name}.peak_orders" if has_orders else "analysis.peaks.orders"
-        orders[key] = peak_orders(config, name)
-    for key, index, order in ((key, *pair) for key, values in orders.items() for pair in enumerate(values)):
-        if order * fastest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
-            bound = f"at least {1 / fastest:.3g} to cross the first frequency below the highest speed"
-            yield f"{key}[{index}] = {order}: must be {bound}; give others in your config, or higher speeds"
+        for index, order in enumerate(peak_orders(config, name)):
+            if order * fastest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
+                yield (
+                    f"{key}[{index}] = {order}: must be at least {1 / fastest:.3g} to cross the first "
+                    "frequency below the highest speed; give others in your config, or higher speeds"
+                )
 
 
 _CHECKS = (
-    *(_results, _blade, _accuracy_modes, _stable_steps, _tip, _tables, _contact_at_all, _own_values),
-    *(_runs, _revolutions, _histories, _crossings),
+    *(_results, _blade, _accuracy_modes, _stable_steps, _tip, _tables, _depths, _runs, _revolutions),
+    *(_histories, _crossings),
 )

@@ -70,20 +70,16 @@ class Located(NamedTuple):
         return Located(merged, overlay.location)
 
     def locations(self) -> dict[str, Location]:
-        """Return the location of every value, by its path as `bladerub.config.errors.key_path` writes it."""
-        return {key_path(parts): entry.location for parts, entry in self._walk(()) if parts}
+        """Return the location of every value, by its path."""
+        return {path: entry.location for path, entry in self.walk()}
 
-    def values(self) -> dict[str, Any]:
-        """Return every value that is neither a mapping nor a list, by its path as `locations` has it."""
-        entries = ((parts, entry.content) for parts, entry in self._walk(()))
-        return {key_path(parts): value for parts, value in entries if not isinstance(value, dict | list)}
-
-    def _walk(self, parts: tuple) -> Iterator[tuple[tuple, "Located"]]:
-        yield parts, self
+    def walk(self, *parts: str | int) -> Iterator[tuple[str, "Located"]]:
+        """Yield all that is in this, with its path behind `parts` as `key_path` writes it."""
         if isinstance(self.content, dict | list):
             pairs = self.content.items() if isinstance(self.content, dict) else enumerate(self.content)
             for part, entry in pairs:
-                yield from entry._walk((*parts, part))
+                yield key_path((*parts, part)), entry
+                yield from entry.walk(*parts, part)
 
 
 def compose(

@@ -1,22 +1,21 @@
 """What a config may hold below each key, read from the models."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cache
 from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin
+from typing import Any, Literal, Union, get_args, get_origin
 
-import annotated_types as at
-from pydantic import Tag
 from pydantic.fields import FieldInfo
 
 from bladerub.settings import units
-from bladerub.settings.fields import ASCENDING, UNIQUE, Form, Limit, OneOf, Section, Unit
+from bladerub.settings.fields import ASCENDING, UNIQUE, Limit, Section, Unit
 
 _KINDS = {float: "a number", int: "a whole number", str: "text", bool: "true or false"}
 NUMBERS = ("a number", "a whole number")
 _FEWEST, _MOST_HZ = 10.0, 1000.0  # of a plain number that is a speed in rpm or Hz
 _WORDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "at most"}
+_SAID = (*_WORDS, "min_length", "max_length", "pattern", "form", "group")
 
 
 @dataclass(frozen=True)
@@ -40,14 +39,9 @@ class Key:
     entry: "Key | None" = None  # of a list, or of a group of names
 
     @property
-    def lowest(self) -> float | None:
-        """Lower bound of a number."""
-        return self.bounds.get("ge", self.bounds.get("gt"))
-
-    @property
-    def highest(self) -> float | None:
-        """Upper bound of a number."""
-        return self.bounds.get("le", self.bounds.get("lt"))
+    def ends(self) -> tuple[float | None, float | None]:
+        """Lower and upper bound of a number."""
+        return self.bounds.get("ge", self.bounds.get("gt")), self.bounds.get("le", self.bounds.get("lt"))
 
     def fields(self) -> dict[str, "Key"]:
         """Return the keys of a group, of all the kinds that it may be of; those of one name say the same."""
@@ -55,34 +49,30 @@ class Key:
             name: key for model in reversed(self.models.values()) for name, key in _keys_of(model).items()
         }
 
-    def inner(self, name: str | None) -> "Key | None":
-        """Return what is allowed under a name, or as an entry (None); None if nothing is known of it."""
-        if name is None or (self.entry is not None and not self.models):
-            return self.entry
-        return self.fields().get(name, self.entry)
+    def inner(self, part: str | int) -> "Key | None":
+        """Return what is allowed under a name, or as an entry of a list; None if nothing is known of it."""
+        return self.fields().get(part, self.entry)
 
     def allowed(self) -> str:
         """Say kind and range, ``a number from 0.01 to 3``."""
-        fewest, most = self.sizes
         if self.form:
             return self.form
+        fewest, most = self.sizes
         if self.kind == "a list":
-            number = f"{fewest}" if fewest == most else f"{fewest} to {most}"
-            number = f"{fewest} or more" if most is None else number
+            upper = " or more" if most is None else f" to {most}"
+            number = f"{fewest}{'' if fewest == most else upper}"
             return f"a list of {number} entries{', ascending' if self.is_ascending else ''}"
         if self.names:
             return f"{self.kind} with {fewest} to {most} of them" if most else self.kind
         if self.bounds.keys() == {"ge", "le"}:
-            return f"{self.kind} from {self.lowest:g} to {self.highest:g}"
+            return f"{self.kind} from {self.bounds['ge']:g} to {self.bounds['le']:g}"
         words = (f"{word} {self.bounds[name]:g}" for name, word in _WORDS.items() if name in self.bounds)
         return f"{self.kind} {' and '.join(words)}".rstrip()
 
     @property
     def typed_units(self) -> str:
         """Units that a quantity may have, apart from that of a plain number; empty for none."""
-        if self.unit.kind is None:
-            return "%" if self.is_share else ""
-        return units.choices_by_kind()[self.unit.kind]
+        return units.choices_by_kind().get(self.unit.kind, "%" if self.is_share else "")
 
     @property
     def is_share(self) -> bool:
@@ -116,19 +106,19 @@ class Key:
 
     def meant(self, value: float) -> str:
         """Say what a plain number out of range is, and what was probably meant; empty if nothing."""
-        unit, proposals = self.unit.name, []
+        unit, (low, high), proposals = self.unit.name, self.ends, []
         if self.unit.kind is None or not value:
             return ""
-        if unit == "f1" and value >= max(_FEWEST, self.highest):
+        if unit == "f1" and value >= max(_FEWEST, high):
             proposals = [f'"{value:g} rpm"'] + [f'"{value:g} Hz"'] * (value < _MOST_HZ)
-        elif unit == "modulus_unit" and value > self.highest:
+        elif unit == "modulus_unit" and value > high:
             proposals = [f'"{value / 1e6:g} MPa"']
         elif not self.unit.reference or self.unit.scaled:
             size = units.size_of(unit)[1]
             proposals = [
                 f'"{value:g} {usual}"'
                 for usual in self.typed_units.split(", ")[:2]
-                if self.lowest <= value * float(units.size_of(usual)[1] / size) <= self.highest
+                if low <= value * float(units.size_of(usual)[1] / size) <= high
             ]
         words = self.unit.words.removeprefix("in ")
         return f"; this is {value:g} {words}; write {' or '.join(proposals)}" if proposals else ""
@@ -141,67 +131,46 @@ def _keys_of(model: type[Section]) -> dict[str, Key]:
 
 def key_of(kind: Any) -> Key:
     """Describe a type, or the field of a model."""
-    annotation, marks, text = _parts(kind if isinstance(kind, FieldInfo) else FieldInfo.from_annotation(kind))
-    common: dict[str, Any] = {
-        "description": " ".join(text.split()),
-        "sizes": (_last(marks, at.MinLen, "min_length", 0), _last(marks, at.MaxLen, "max_length", None)),
-        "form": _last(marks, Form, "words", ""),
-        "limits": tuple(mark for mark in marks if isinstance(mark, Limit)),
-        "one_of": _last(marks, OneOf, "group", ""),
-        "is_ascending": ASCENDING in marks,
-        "is_unique": UNIQUE in marks,
-    }
+    info = kind if isinstance(kind, FieldInfo) else FieldInfo.from_annotation(kind)
+    annotation, marks, text = info.annotation, info.metadata, info.description
+    while NoneType in get_args(annotation):  # it may be left out: its type says the rest
+        (kind,) = (part for part in get_args(annotation) if part is not NoneType)
+        info = FieldInfo.from_annotation(kind)
+        annotation, marks, text = info.annotation, [*info.metadata, *marks], text or info.description
+    said = {name: getattr(mark, name) for mark in marks for name in _SAID if hasattr(mark, name)}
+    key = Key(
+        "a group of keys",
+        description=" ".join((text or "").split()),
+        bounds={name: bound for name, bound in said.items() if name in _WORDS},
+        sizes=(said.get("min_length", 0), said.get("max_length")),
+        unit=next((mark for mark in marks if isinstance(mark, Unit)), Unit("1")),
+        form=said.get("form", ""),
+        pattern=said.get("pattern", ""),
+        limits=tuple(mark for mark in marks if isinstance(mark, Limit)),
+        one_of=said.get("group", ""),
+        is_ascending=ASCENDING in marks,
+        is_unique=UNIQUE in marks,
+    )
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is Literal:
         words = " or ".join(filter(None, (", ".join(map(str, arguments[:-1])), str(arguments[-1]))))
-        return Key("text", **common | {"form": common["form"] or words, "choices": arguments})
+        return replace(key, kind="text", form=key.form or words, choices=arguments)
     if origin is list:
-        return Key("a list", entry=key_of(arguments[0]), **common)
+        return replace(key, kind="a list", entry=key_of(arguments[0]))
     if origin is dict:
         names, entry = map(key_of, arguments)
-        return Key("a group of keys", names=names, entry=entry, **common)
-    if models := dict(_models(annotation)):
-        first = next(iter(models.values()))
-        common["description"] = common["description"] or " ".join((first.__doc__ or "").split())
-        return Key("a group of keys", models=models, entry=_extra(first), **common)
-    limits = {name: getattr(mark, name) for mark in marks for name in _WORDS if hasattr(mark, name)}
-    return Key(
-        _KINDS.get(annotation, "a group of keys"),
-        bounds=limits,
-        unit=next((mark for mark in marks if isinstance(mark, Unit)), Unit("1")),
-        pattern=next((mark.pattern for mark in marks if getattr(mark, "pattern", None)), ""),
-        **common,
+        return replace(key, names=names, entry=entry)
+    if origin in (Union, UnionType):  # of kinds of a group
+        models = {tag.tag: model for model, tag in map(get_args, arguments)}
+    elif isinstance(annotation, type) and issubclass(annotation, Section):
+        models = {"": annotation}
+    else:
+        return replace(key, kind=_KINDS.get(annotation, key.kind))
+    first = next(iter(models.values()))
+    extra = first.__annotations__.get("__pydantic_extra__")
+    return replace(
+        key,
+        description=key.description or " ".join((first.__doc__ or "").split()),
+        models=models,
+        entry=key_of(get_args(extra)[1]) if extra else None,
     )
-
-
-def _parts(info: FieldInfo) -> tuple[Any, list[Any], str]:
-    """Take a field apart: its type, without null, what is said of that, and the description."""
-    annotation, marks, text = info.annotation, list(info.metadata), info.description or ""
-    if get_origin(annotation) in (Union, UnionType) and NoneType in get_args(annotation):
-        (kind,) = (part for part in get_args(annotation) if part is not NoneType)
-        annotation, inner, description = _parts(FieldInfo.from_annotation(kind))
-        return annotation, [*inner, *marks], text or description
-    return annotation, marks, text
-
-
-def _last(marks: list[Any], kind: type, name: str, default: Any) -> Any:
-    return next((getattr(mark, name) for mark in reversed(marks) if isinstance(mark, kind)), default)
-
-
-def _models(annotation: Any, tag: str = "") -> Iterator[tuple[str, type[Section]]]:
-    """Yield the models that a type stands for, with their tags: itself, or those that it may be one of."""
-    if isinstance(annotation, type) and issubclass(annotation, Section):
-        yield tag, annotation
-    elif get_origin(annotation) is Annotated:
-        kind, *marks = get_args(annotation)
-        yield from _models(kind, next((mark.tag for mark in marks if isinstance(mark, Tag)), tag))
-    elif get_origin(annotation) in (Union, UnionType):
-        for part in get_args(annotation):
-            yield from _models(part)
-
-
-def _extra(model: type[Section]) -> Key | None:
-    """Describe what a group that takes any names holds below them."""
-    if model.model_config.get("extra") != "allow":
-        return None
-    return key_of(get_args(model.__annotations__["__pydantic_extra__"])[1])

@@ -97,7 +97,7 @@ def _place(location: tuple, key: Key, value: Any) -> tuple[list[Any], Key, Key, 
             key = replace(key, models={"": key.models[part]})
             continue
         parts.append(part)
-        group, key = key, key.inner(part if isinstance(part, str) else None)
+        group, key = key, key.inner(part)
         value = value[part] if isinstance(part, int) else value.get(part)
     return parts, group, key, value
 
@@ -134,19 +134,15 @@ def _compared(config: Mapping[str, Any], key: Key, value: Any, parts: tuple) -> 
     """Compare numbers and names in `value` with what other keys of the config say."""
     for right in _differences(config, key, value):
         yield f"{key_path(parts)} = {format_value(value)}: must be {right}"
-    if isinstance(value, Mapping):
-        for name, entry in value.items():
-            if inner := key.inner(name):
-                yield from _compared(config, inner, entry, (*parts, name))
-    elif isinstance(value, list) and key.entry:
-        for index, entry in enumerate(value):
-            yield from _compared(config, key.entry, entry, (*parts, index))
+    is_list, is_group = isinstance(value, list), isinstance(value, Mapping)
+    for part, entry in enumerate(value) if is_list else value.items() if is_group else ():
+        if inner := key.inner(part):
+            yield from _compared(config, inner, entry, (*parts, part))
 
 
 def _differences(config: Mapping[str, Any], key: Key, value: Any) -> Iterator[str]:
     """Yield what a value must be by other keys, where it is not."""
-    names = config.get(key.one_of, {value}) if key.one_of else {}
-    if key.one_of and value not in names:
+    if key.one_of and value not in (names := config.get(key.one_of, {value})):
         yield f"one of the {key.one_of}, {', '.join(names)}"
     for limit in key.limits:
         bound: Any = config

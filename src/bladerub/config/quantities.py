@@ -72,9 +72,6 @@ def converted(config: Located, kind: Any = None, study: Config | None = None) ->
     refuses it. A config has its own references; a plan, of the model `kind`, those of the checked `study`
     that it is for.
     """
-    key = key_of(kind or whole())
-    if kind and study is None:
-        return _converted(config, key, unknown), []
     reasons: list[str] = []
 
     @cache
@@ -93,13 +90,15 @@ def converted(config: Located, kind: Any = None, study: Config | None = None) ->
             raise Unknown
         return value
 
-    return _converted(config, key, known), reasons
+    reference = unknown if kind and study is None else known
+    return _converted(config, key_of(kind or whole()), reference), reasons
 
 
 def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
     """Return what adds to the text of a problem the quantity that was typed, where `config` has a number."""
-    before, after = typed.values(), config.values()
-    quantities = {path: text for path, text in before.items() if units.read(text) and after.get(path) != text}
+    after = {path: entry.content for path, entry in config.walk()}
+    before = ((path, entry.content) for path, entry in typed.walk())
+    quantities = {path: text for path, text in before if units.read(text) and after.get(path) != text}
 
     def add(problem: str) -> str:
         setting, colon, right = problem.partition(": ")
@@ -120,7 +119,7 @@ def _sound(config: Located, parts: set[str]) -> Config:
     """Make a config of `parts`, any value for quantities; raises `Unknown` if one has another problem."""
     from bladerub.config.checks import check  # takes half a second to import
 
-    values = _converted(config, key_of(whole()), unknown, lambda key: key.highest).plain()
+    values = _converted(config, key_of(whole()), unknown, lambda key: key.ends[1]).plain()
     others = whole().model_fields.keys() - parts
     if parts - values.keys() or any(top_key(text) in parts for text in problems(values)):
         raise Unknown

@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Mapping
+from functools import reduce
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,11 +62,7 @@ def read_with_notes(
 
 def vary(config: "Config", *variations: Located) -> Located:
     """Lay variations of a plan over a config, without a check."""
-    varied = Located.of(config.plain())
-    for variation in variations:
-        if variation.content is not None:
-            varied = varied.merged(variation)
-    return varied
+    return reduce(Located.merged, (part for part in variations if part.content), Located.of(config.plain()))
 
 
 def validate(config: Located | Mapping[str, Any], variation: str = "") -> "Config":

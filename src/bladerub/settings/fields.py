@@ -79,7 +79,7 @@ class OneOf:
 class Form:
     """What a text must be, in words."""
 
-    words: str
+    form: str
 
 
 class _Omittable:

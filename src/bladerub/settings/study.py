@@ -100,17 +100,10 @@ def typed(values: Mapping[str, Any], broken: Collection[str] = ()) -> Config:
     """Make the config of `values` that have been checked, without those of its sections that are `broken`."""
     if not broken:
         return whole().model_validate(values)
-    sound = whole().model_fields.keys() & values.keys() - {*broken}
-    return whole().model_construct(
-        **{name: getattr(_alone(name).model_validate({name: values[name]}), name) for name in sound}
-    )
-
-
-@cache
-def _alone(name: str) -> type[Section]:
-    """Make a model of one section of a config."""
-    field = whole().model_fields[name]
-    return create_model(name, __base__=Section, **{name: (field.annotation, field)})  # type: ignore[call-overload]
+    sound = values.keys() - {*broken}
+    fields: Any = {k: (field.annotation, field) for k, field in whole().model_fields.items() if k in sound}
+    sections = create_model("Sections", __base__=Section, **fields)
+    return whole().model_construct(**dict(sections.model_validate({name: values[name] for name in fields})))
 
 
 def required() -> set[str]:

@@ -27,7 +27,7 @@ BY_PATH = {path: key for path, key, _ in KEYS}
 def test_every_number_has_bounds_and_every_key_of_a_group_says_what_it_is():
     for path, key, is_said in KEYS:
         assert is_said, path
-        assert key.kind not in NUMBERS or None not in (key.lowest, key.highest), path
+        assert key.kind not in NUMBERS or None not in key.ends, path
 
 
 def test_what_limits_a_number_is_a_number_or_a_group_of_the_config():
