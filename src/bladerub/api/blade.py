@@ -18,13 +18,13 @@ from bladerub.api.display import Shown, step
 from bladerub.api.planned import Quantity
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
-from bladerub.blade.cache import kept_at
+from bladerub.blade.cache import kept_at, rounded_frequency
 from bladerub.blade.files import accuracy_path, is_built, mesh_path
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.config.problems import checked_quantity
-from bladerub.config.quantities import number, references
+from bladerub.config.quantities import number
 from bladerub.io import tables
 from bladerub.io.equality import equal
 from bladerub.io.optional import package
@@ -121,7 +121,7 @@ class Blade(Shown):
         A list of speeds gives a list. Raises `InputError` if one is no speed.
         """
         try:
-            plain = number("f_omega", speed, references(None, self.f1_hz))
+            plain = number("f_omega", speed, lambda _: rounded_frequency(self.f1_hz))
             return checked_quantity(plain, _FROM_REST)
         except ValueError as error:
             raise InputError("speed", speed, str(error)) from None

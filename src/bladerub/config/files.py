@@ -7,6 +7,7 @@ import os
 import re
 import stat
 from collections.abc import Iterator, Mapping
+from functools import reduce
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -92,9 +93,7 @@ def compose(
     Raises `ConfigError`, which names the file and the line, if one is missing, is not YAML, not a mapping or
     beyond limits.
     """
-    config = Located({}, UNKNOWN)
-    for path in paths:
-        config = config.merged(read(path))
+    config = reduce(Located.merged, map(read, paths), Located({}, UNKNOWN))
     return config.merged(Located.of(_from_text(command_line or {}), Location(source)))
 
 

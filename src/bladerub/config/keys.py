@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cache
 from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin
@@ -15,6 +16,7 @@ _KINDS = {float: "a number", int: "a whole number", str: "text", bool: "true or 
 NUMBERS = ("a number", "a whole number")
 _FEWEST, _MOST_HZ = 10.0, 1000.0  # of a plain number that is a speed in rpm or Hz
 _WORDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "at most"}
+_DIGITS = 12  # of a value in units of a reference, which is itself known to fewer
 _SAID = (*_WORDS, "min_length", "max_length", "pattern", "form", "group")
 
 
@@ -86,14 +88,22 @@ class Key:
         return f"must be {self.allowed()}{behind}"
 
     def convert(self, quantity: units.Quantity, reference: units.Reference) -> float:
-        """Return a quantity as a plain number, see `bladerub.settings.units.convert`.
+        """Return a quantity as a plain number.
 
-        Raises ValueError that says what the quantity is and what it must be, and as the `reference`.
+        It is the number nearest to the exact one, as if that were typed; in units of a `reference` it has
+        twelve digits, and where ``contact.scale`` multiplies plain numbers, it is divided by that. Raises
+        ValueError that says what the quantity is and what it must be, and as the `reference`.
         """
-        kind, wanted = units.size_of(quantity.unit)[0], self.unit.kind
-        if kind is None or (kind != wanted and not (kind == "share" and self.is_share)):
-            raise ValueError(f"{units.mistaken(quantity.unit, wanted)}; must be {self._quantity()}")
-        return units.convert(quantity, self.unit, reference)
+        kind, size = units.size_of(quantity.unit)
+        if kind is None or (kind != self.unit.kind and not (kind == "share" and self.is_share)):
+            raise ValueError(f"{units.mistaken(quantity.unit, self.unit.kind)}; must be {self._quantity()}")
+        exact = quantity.number * size
+        if kind == "share" or self.unit.reference is None:
+            return float(exact / units.size_of(self.unit.name)[1])
+        divisor = reference(self.unit.reference)
+        if divisor == 1:  # as where no ``contact.scale`` is
+            return float(exact)
+        return float(f"{float(exact / Fraction(divisor)):.{_DIGITS}g}")
 
     def _quantity(self) -> str:
         """Say which units a quantity may have, ``a speed: rpm, Hz, rad/s, or a number times the ...``."""

@@ -132,21 +132,18 @@ def _nearest(parts: list[Any], names: Collection[str]) -> str:
 
 def _compared(config: Mapping[str, Any], key: Key, value: Any, parts: tuple) -> Iterator[str]:
     """Compare numbers and names in `value` with what other keys of the config say."""
-    for right in _differences(config, key, value):
-        yield f"{key_path(parts)} = {format_value(value)}: must be {right}"
-    is_list, is_group = isinstance(value, list), isinstance(value, Mapping)
-    for part, entry in enumerate(value) if is_list else value.items() if is_group else ():
-        if inner := key.inner(part):
-            yield from _compared(config, inner, entry, (*parts, part))
-
-
-def _differences(config: Mapping[str, Any], key: Key, value: Any) -> Iterator[str]:
-    """Yield what a value must be by other keys, where it is not."""
+    differences = []
     if key.one_of and value not in (names := config.get(key.one_of, {value})):
-        yield f"one of the {key.one_of}, {', '.join(names)}"
+        differences.append(f"one of the {key.one_of}, {', '.join(names)}")
     for limit in key.limits:
         bound: Any = config
         for part in limit.key.split("."):
             bound = bound.get(part, {})
         if is_number(bound) and not _RELATIONS[limit.relation](value, bound / limit.divisor):
-            yield f"{limit} = {bound / limit.divisor:g}{f', {limit.reason}' if limit.reason else ''}"
+            reason = f", {limit.reason}" if limit.reason else ""
+            differences.append(f"{limit} = {bound / limit.divisor:g}{reason}")
+    yield from (f"{key_path(parts)} = {format_value(value)}: must be {right}" for right in differences)
+    is_list, is_group = isinstance(value, list), isinstance(value, Mapping)
+    for part, entry in enumerate(value) if is_list else value.items() if is_group else ():
+        if inner := key.inner(part):
+            yield from _compared(config, inner, entry, (*parts, part))

@@ -2,10 +2,10 @@
 
 import re
 from collections.abc import Callable
-from functools import cache
+from functools import cache, reduce
 from typing import Any
 
-from bladerub.blade.cache import first_frequency, rounded_frequency
+from bladerub.blade.cache import first_frequency
 from bladerub.config.errors import top_key
 from bladerub.config.files import Located
 from bladerub.config.keys import Key, key_of
@@ -23,16 +23,15 @@ class Unknown(ValueError):
     """The config does not say what a reference is, for problems of its own, which are perhaps named."""
 
 
-def references(config: Config | None, f1_hz: float | None = None) -> units.Reference:
-    """Return the sizes of a study that quantities are divided by, as `bladerub.settings.units.convert` asks.
+def references(config: Config) -> units.Reference:
+    """Return the sizes of a study that quantities are divided by, as `Key.convert` asks.
 
-    The first frequency is that of the blade of the config unless `f1_hz` is given: ValueError or OSError if
-    that cannot be computed.
+    That of the first frequency raises ValueError or OSError if the blade cannot be computed.
     """
 
     def size(name: str) -> float:
         if name == "f1":
-            return rounded_frequency(f1_hz) if f1_hz else first_frequency(config)
+            return first_frequency(config)
         if name == "modulus_unit":
             return modulus_unit(config)
         if name == "blade lengths":
@@ -59,10 +58,7 @@ def number(name: str, value: Any, reference: units.Reference) -> Any:
 
 def key_at(path: str) -> Key:
     """Return what a config may hold at a path such as ``rotor.blades``."""
-    key = key_of(whole())
-    for name in path.split("."):
-        key = key.fields()[name]
-    return key
+    return reduce(Key.inner, path.split("."), key_of(whole()))
 
 
 def converted(config: Located, kind: Any = None, study: Config | None = None) -> tuple[Located, list[str]]:

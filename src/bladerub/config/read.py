@@ -74,25 +74,22 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> "Confi
     models cannot say is checked for those sections that agree with theirs.
     """
     # it takes half a second to import, `bladerub --help` and jobs on a cluster do without
-    from bladerub.config import quantities
-    from bladerub.config.checks import check
-    from bladerub.config.problems import NOT_KNOWN
-    from bladerub.config.problems import problems as problems_of
+    from bladerub.config import checks, problems, quantities
     from bladerub.settings.study import required, typed
 
     given = config if isinstance(config, Located) else Located.of(config)
-    located, problems = quantities.converted(given)
+    located, texts = quantities.converted(given)
     values, locations = located.plain(), located.locations()
-    problems += problems_of(values)
-    broken = (required() - values.keys()) | set(map(top_key, problems))
+    texts += problems.problems(values)
+    broken = (required() - values.keys()) | set(map(top_key, texts))
     checked = typed(values, broken)
-    problems += check(checked, broken)
-    if problems:
+    texts += checks.check(checked, broken)
+    if texts:
         as_typed = quantities.as_typed(given, located)
-        causes = [text for text in problems if NOT_KNOWN not in text]
+        causes = [text for text in texts if problems.NOT_KNOWN not in text]
         raise ConfigError(
             Problem(location_of(text, locations), (f"{variation}: " if variation else "") + as_typed(text))
-            for text in dict.fromkeys(causes or problems)
+            for text in dict.fromkeys(causes or texts)
         )
     return checked
 

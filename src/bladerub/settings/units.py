@@ -56,7 +56,6 @@ _IN_WORDS = {
 }
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,2})?"
 _QUANTITY = re.compile(rf"\s*({NUMBER})\s*([^\s\d.,+-].*?)\s*", re.S)
-_DIGITS = 12  # of a value in units of a reference, which is itself known to fewer
 
 Reference = Callable[[str], float]
 """Gives what ``f1`` (Hz), ``modulus_unit`` (Pa) or ``blade lengths`` (m) is, or a factor of contact.scale."""
@@ -105,22 +104,6 @@ def read(text: Any) -> Quantity | None:
 def size_of(unit: str) -> tuple[str | None, Fraction]:
     """Return the kind of a unit and its size in SI; kind None of one that is not known."""
     return _UNITS.get(unit, (None, Fraction(1)))
-
-
-def convert(quantity: Quantity, unit: Unit, reference: Reference) -> float:
-    """Return the value of a quantity, of the kind of `unit` or a share, in that unit.
-
-    It is the number nearest to the exact one, as if that were typed; in units of a reference it has twelve
-    digits. ``scaled`` undoes what multiplies it later. Raises as the `reference`.
-    """
-    kind, size = size_of(quantity.unit)
-    exact = quantity.number * size
-    if kind == "share" or unit.reference is None:
-        return float(exact / size_of(unit.name)[1])
-    divisor = reference(unit.reference)
-    if divisor == 1:  # as where no ``contact.scale`` is
-        return float(exact)
-    return float(f"{float(exact / Fraction(divisor)):.{_DIGITS}g}")
 
 
 @cache

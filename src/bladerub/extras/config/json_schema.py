@@ -4,17 +4,14 @@ import json
 import re
 from typing import Any
 
-from bladerub.config.keys import NUMBERS, Key, key_of
+from bladerub.config.keys import Key, key_of
 from bladerub.settings.study import whole
 from bladerub.settings.units import NUMBER, UNITS
 
 Rule = dict[str, Any]
 
 _BOUNDS = {"ge": "minimum", "gt": "exclusiveMinimum", "le": "maximum", "lt": "exclusiveMaximum"}
-_TYPES = dict(zip(NUMBERS, ("number", "integer"), strict=True)) | {
-    "text": "string",
-    "true or false": "boolean",
-}
+_TYPES = {"a number": "number", "a whole number": "integer", "text": "string", "true or false": "boolean"}
 
 
 def json_schema() -> Rule:

@@ -19,19 +19,17 @@ from bladerub.study.orders import excited_orders, excites, nodal_diameters, peak
 
 def notes(config: Config) -> list[str]:
     """List them, a line each."""
-    of_casings = *_orders(config), *_scaled_casings(config), *_idle_orders(config), *_overlaps(config)
-    return [*_histories(config), *of_casings, *_stiff_coatings(config)]
+    kinds = (_histories, _orders, _scaled_casings, _idle_orders, _overlaps, _stiff_coatings)
+    return [note for list_notes in kinds for note in list_notes(config)]
 
 
 def _histories(config: Config) -> Iterator[str]:
     cases, planned = set(grid.coating_cases(config)), set(grid.speeds(config))
-    listed = [
-        (grid.listed_case(entry), round(entry.f_omega, grid.SPEED_DECIMALS))
-        for entry in config.analysis.histories
-    ]
-    lost = [
-        f"{case.name}/{grid.speed_name(f)}" for case, f in listed if case not in cases or f not in planned
-    ]
+    lost = []
+    for entry in config.analysis.histories:
+        case, f_omega = grid.listed_case(entry), round(entry.f_omega, grid.SPEED_DECIMALS)
+        if case not in cases or f_omega not in planned:
+            lost.append(f"{case.name}/{grid.speed_name(f_omega)}")
     if lost:
         ellipsis = ", ..." if len(lost) > 1 else ""
         yield f"analysis.histories: {len(lost)} left out, not in this study ({lost[0]}{ellipsis})"
