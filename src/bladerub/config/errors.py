@@ -43,9 +43,6 @@ class ConfigError(BadInput):
     ... except br.ConfigError as error:
     ...     print(len(error.problems))
     1
-    >>> from bladerub.config.errors import Location
-    >>> print(br.ConfigError.at(Location("my.yaml", 3), "speeds.step = 0: must be above 0"))
-    my.yaml:3: speeds.step = 0: must be above 0
     """
 
     def __init__(self, problems: Iterable[Problem]):

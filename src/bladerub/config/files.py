@@ -153,6 +153,8 @@ class _Loader(yaml.SafeLoader):
         self._n_nodes += 1
         _limit(self._depth, self._n_nodes, self.peek_event())
         node = super().compose_node(parent, index)
+        if isinstance(node, yaml.ScalarNode) and len(node.value) > LONGEST_VALUE:
+            raise _error(f"a key or value of more than {LONGEST_VALUE} characters", node)
         self._depth -= 1
         return node
 
@@ -179,8 +181,6 @@ class _Loader(yaml.SafeLoader):
     def _key(node: yaml.Node, entry: yaml.Node) -> str:
         if not isinstance(node, yaml.ScalarNode):
             raise _error("a key must be text", node)
-        if len(node.value) > LONGEST_VALUE:
-            raise _error(f"a key of more than {LONGEST_VALUE} characters", node)
         if node.tag == "tag:yaml.org,2002:merge":
             raise _error("<< is not for configs: lay one file over another, or write the keys out", node)
         if node.tag != "tag:yaml.org,2002:str":
@@ -190,8 +190,6 @@ class _Loader(yaml.SafeLoader):
         return node.value
 
     def scalar(self, node: yaml.ScalarNode) -> Any:
-        if len(node.value) > LONGEST_VALUE:
-            raise _error(f"a value of more than {LONGEST_VALUE} characters", node)
         if yaml_reading(node.value) is not None:
             return node.value  # as text, which is no number: nobody means what YAML makes of it
         try:
