@@ -2,7 +2,7 @@
 
 import operator
 import sys
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import cache
@@ -78,7 +78,10 @@ def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
     if kind == "extra_forbidden" and path == "extend":
         return f"{setting}: is a key no more, give --configfile both files, the one named here first"
     if kind == "extra_forbidden":
-        return f"{setting}: unknown key, {_nearest(parts, group.fields())}"
+        names = group.fields()
+        close = [key_path([*parts[:-1], name]) for name in get_close_matches(str(parts[-1]), names, n=1)]
+        hint = f"did you mean {close[0]}?" if close else f"known here: {', '.join(names)}"
+        return f"{setting}: unknown key, {hint}"
     if kind in OWN:
         return f"{setting}: {mistake['msg']}"
     if mistake["loc"][-1:] == ("[key]",):
@@ -121,13 +124,6 @@ def _wrong(value: Any, key: Key) -> str:
             return str(error)
         return f"needs {key.unit.reference} {NOT_KNOWN}; {key.right()}"
     return key.right()
-
-
-def _nearest(parts: list[Any], names: Collection[str]) -> str:
-    close = get_close_matches(str(parts[-1]), names, n=1)
-    return (
-        f"did you mean {key_path([*parts[:-1], close[0]])}?" if close else f"known here: {', '.join(names)}"
-    )
 
 
 def _compared(config: Mapping[str, Any], key: Key, value: Any, parts: tuple) -> Iterator[str]:

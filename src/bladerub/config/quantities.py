@@ -1,6 +1,7 @@
 """Quantities typed with a unit become the numbers that they stand for, wherever a config has a number."""
 
 import re
+from collections import ChainMap
 from collections.abc import Callable
 from functools import cache, reduce
 from typing import Any
@@ -137,21 +138,16 @@ def _converted(
     if key is None:
         return entry
     if isinstance(content, dict):
-        plain, keys = entry.plain(), {}
-        for model in key.models.values():
-            keys |= model.further_keys(plain)
-        values = {
-            name: _converted(value, keys.get(name) or key.inner(name), reference, instead)
-            for name, value in content.items()
-        }
-        return Located(values, entry.location)
-    if isinstance(content, list):
-        return Located([_converted(v, key.entry, reference, instead) for v in content], entry.location)
-    if key.kind == "a number" and (quantity := units.read(content)):
+        further = ChainMap(*(model.further_keys(entry.plain()) for model in key.models.values()))
+        keys = {name: further.get(name) or key.inner(name) for name in content}
+        content = {name: _converted(v, keys[name], reference, instead) for name, v in content.items()}
+    elif isinstance(content, list):
+        content = [_converted(v, key.entry, reference, instead) for v in content]
+    elif key.kind == "a number" and (quantity := units.read(content)):
         try:
-            return Located(key.convert(quantity, reference), entry.location)
+            content = key.convert(quantity, reference)
         except Unknown:
-            return Located(instead(key), entry.location) if instead else entry
+            content = instead(key) if instead else content
         except ValueError:
             return entry
-    return entry
+    return Located(content, entry.location)
