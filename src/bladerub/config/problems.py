@@ -23,8 +23,8 @@ NOT_KNOWN = "of this study, which is not known"
 _RELATIONS = {"at most": operator.le, "below": operator.lt, "at least": operator.ge, "above": operator.gt}
 
 
-def problems(values: Any, kind: Any = None) -> Iterator[str]:
-    """Yield a line for each problem of a config, or of what is of another `kind`: a model, or a type.
+def problems(values: Mapping[str, Any], kind: Any = None) -> Iterator[str]:
+    """Yield a line for each problem of a config, or of the values of another model, `kind`.
 
     Numbers that other keys limit are compared where both parts of the config are as they must be.
     """
@@ -36,10 +36,9 @@ def problems(values: Any, kind: Any = None) -> Iterator[str]:
         mistakes = error.errors(include_url=False)
     lines = sorted({_line(mistake, key, values) for mistake in mistakes})
     yield from lines
-    if isinstance(values, Mapping):
-        broken = set(map(top_key, lines))
-        valid = {name: value for name, value in values.items() if name not in broken}
-        yield from _compared(valid, key, valid, ())
+    broken = set(map(top_key, lines))
+    valid = {name: value for name, value in values.items() if name not in broken}
+    yield from _compared(valid, key, valid, ())
 
 
 def checked_quantity(value: Any, kind: Any, hint: bool = True) -> float:
@@ -69,7 +68,7 @@ def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
     if within is not None:  # of our own validators, which see a list or a group as a whole
         parts, value = [*parts, within], value[within]
     path, kind = key_path(parts), mistake["type"]
-    setting = f"{path} = {format_value(value)}" if parts else format_value(value)
+    setting = f"{path} = {format_value(value)}"
     if kind == "missing":
         new = (
             "" if len(parts) > 1 else " (a config of an older version? `bladerub new` writes one that has it)"

@@ -100,10 +100,11 @@ def typed(values: Mapping[str, Any], broken: Collection[str] = ()) -> Config:
     """Make the config of `values` that have been checked, without those of its sections that are `broken`."""
     if not broken:
         return whole().model_validate(values)
-    sound = values.keys() - {*broken}
-    fields: Any = {k: (field.annotation, field) for k, field in whole().model_fields.items() if k in sound}
-    sections = create_model("Sections", __base__=Section, **fields)
-    return whole().model_construct(**dict(sections.model_validate({name: values[name] for name in fields})))
+    fields = whole().model_fields
+    sound = fields.keys() & values.keys() - {*broken}
+    definitions: Any = {name: (fields[name].annotation, fields[name]) for name in sound}
+    sections = create_model("Sections", __base__=Section, **definitions)
+    return whole().model_construct(**dict(sections.model_validate({name: values[name] for name in sound})))
 
 
 def required() -> set[str]:
