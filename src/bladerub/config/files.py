@@ -154,7 +154,8 @@ class _Loader(yaml.SafeLoader):
         _limit(self._depth, self._n_nodes, self.peek_event())
         node = super().compose_node(parent, index)
         if isinstance(node, yaml.ScalarNode) and len(node.value) > LONGEST_VALUE:
-            raise _error(f"a key or value of more than {LONGEST_VALUE} characters", node)
+            kind = "key" if parent and index is None else "value"
+            raise _error(f"a {kind} of more than {LONGEST_VALUE} characters", node)
         self._depth -= 1
         return node
 

@@ -1,7 +1,7 @@
 import pytest
 import yaml
 
-from bladerub.config.errors import UNKNOWN
+from bladerub.config.errors import UNKNOWN, ConfigError
 from bladerub.config.files import Located
 from bladerub.config.read import read, read_with_notes
 from bladerub.io.folders import ROOT
@@ -43,17 +43,20 @@ def test_histories_of_replaced_coatings_and_speeds_are_left_out_with_one_note(
     assert [f for f in speeds(config) if any(keeps_history(config, case, f) for case in cases)] == kept
 
 
-def test_a_mistake_in_a_casing_is_reported_without_the_histories_of_replaced_coatings(laid_over, problems):
+def test_a_mistake_in_a_casing_is_reported_without_the_histories_of_replaced_coatings(laid_over):
     content = on_casing(nodal_diameters=[3])
     del content["casings"]["own"]["start_angle"]
-    (problem,) = problems(content, by=laid_over)
-    assert problem.text.startswith("casings.own.start_angle: missing")
+    with pytest.raises(ConfigError, match=r"^\S+: casings.own.start_angle: missing") as error:
+        laid_over(content)
+    assert len(error.value.problems) == 1
 
 
-def test_a_history_that_the_file_itself_lists_is_still_an_error(laid_over, problems):
+def test_a_history_that_the_file_itself_lists_is_still_an_error(laid_over):
     lost = {"casing": "2nd", "E": 7, "K": 0.5, "theta": 0.0, "f_omega": 0.19}
     content = OTHER_COATING | {"analysis": {"histories": [lost]}}
-    (problem,) = problems(content, by=laid_over, results="elsewhere")
+    with pytest.raises(ConfigError) as error:
+        laid_over(content, results="elsewhere")
+    (problem,) = error.value.problems
     assert problem.location.source.endswith("my.yaml")
     assert problem.text.startswith("analysis.histories[0] = 2nd_E7_K0.5_theta0")
 
