@@ -21,7 +21,7 @@ from bladerub.plots import titles
 from bladerub.settings.analysis import Divergence
 from bladerub.settings.study import Config
 from bladerub.settings.units import speed_in_words
-from bladerub.study import run_set, store
+from bladerub.study import store
 from bladerub.study.divergence import in_a_word
 from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.growth import Verdict, judge
@@ -232,7 +232,7 @@ class Run(Shown):
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all datasets with units and names, and the attributes: those of the file of `write`."""
-        return to_dataset(*run_set.joined(runs_of(self)))
+        return to_dataset(*store.joined(runs_of(self)))
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a row for each revolution: ``revolution_peak`` and ``revolution_amplitude``, m."""
@@ -246,7 +246,7 @@ class Run(Shown):
         The names of its longer run, if it has one, begin with ``longer_``. `read_run` returns an equal run.
         Raises OSError, which names the file, if it cannot be written.
         """
-        run_set.write(path, runs_of(self), provenance(settings_of(config, self.config).plain()))
+        store.write_runs(path, runs_of(self), provenance(settings_of(config, self.config).plain()))
 
     @property
     def _title(self) -> str:
@@ -289,7 +289,7 @@ def read_run(path: str | Path) -> Run:
     >>> br.read_run("0.1900.h5") == run
     True
     """
-    runs = run_set.read(path)
+    runs = store.read_runs(path)
     if _LONGER not in runs and (longer := _longer_beside(path, runs[""])):
         runs[_LONGER] = longer
     return run_of(runs)

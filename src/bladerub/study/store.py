@@ -1,7 +1,7 @@
-"""Runs on disk: one HDF5 file a run."""
+"""Runs on disk: one HDF5 file a run, or several runs in one, with a prefix before the names of each."""
 
 from collections.abc import Mapping, Set
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -65,9 +65,9 @@ class StoredRun:
     @property
     def layer(self) -> dict[str, np.ndarray]:
         """What else than wear the law of the coating leaves in the elements (8, n), by name."""
-        shape, described = _DATASETS["wear"][0], datasets()
-        others = self.data.keys() & described.keys() - {"wear"}
-        return {name: self.data[name] for name in sorted(others) if described[name][0] == shape}
+        shape = datasets()["wear"][0]
+        layers = {name for name, (dims, *_) in datasets().items() if dims == shape} - {"wear"}
+        return {name: self.data[name] for name in sorted(layers & self.data.keys())}
 
 
 def stored_run(
@@ -121,10 +121,8 @@ def stored_run(
 @cache
 def datasets() -> dict[str, tuple[tuple[str, ...], str, str]]:
     """Return dimensions, unit and meaning of all that a run file may hold, by name."""
-    entries = dict(_DATASETS)
-    for more in plugins.loaded("DATASETS").values():
-        entries |= more
-    return entries
+    parts = [_DATASETS, *plugins.loaded("DATASETS").values()]
+    return {name: entry for part in parts for name, entry in part.items()}
 
 
 def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> str:
@@ -132,16 +130,28 @@ def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> st
 
     `origin` is its provenance (`bladerub.io.provenance.provenance`).
     """
-    return hdf5.write(path, variables(run), run.attributes, origin, _REPEATED)
+    return hdf5.write(path, *joined({"": run}), origin, _REPEATED)
 
 
-def variables(run: StoredRun) -> dict[str, Variable]:
-    """Give the datasets of a run their dimensions, units and meaning."""
-    entries, described = datasets(), {"node": interface_node(len(run.data["wear"]))}
-    for name, values in run.data.items():
-        dimensions, unit, meaning = entries[name]
-        described[name] = Variable(dimensions, values, unit, meaning)
-    return described
+def write_runs(path: str | Path, runs: Mapping[str, StoredRun], origin: Mapping[str, str]) -> None:
+    """Write several runs as they are `joined`, such as one and its longer one; parameters as `write_run`."""
+    hdf5.write(path, *joined(runs), origin)
+
+
+def joined(runs: Mapping[str, StoredRun]) -> tuple[dict[str, Variable], dict[str, Any]]:
+    """Return variables and attributes of `runs`, whose names, also of dimensions, begin with their prefix.
+
+    The prefix of one of them is empty: its names are those in the file of a single run.
+    """
+    variables, attributes = {}, {}
+    for prefix, run in runs.items():
+        numbers = interface_node(len(run.data["wear"]))
+        variables[f"{prefix}node"] = replace(numbers, dims=(f"{prefix}node",))
+        for name, values in run.data.items():
+            dims, unit, meaning = datasets()[name]
+            variables[prefix + name] = Variable(tuple(prefix + dim for dim in dims), values, unit, meaning)
+        attributes |= {prefix + name: value for name, value in run.attributes.items()}
+    return variables, attributes
 
 
 def read_run(
@@ -152,8 +162,32 @@ def read_run(
     Raises `OSError` if the file is missing, damaged or not a run; the message names it.
     """
     data, attributes = hdf5.read(path, only, attribute_names and attribute_names | {"run_key"})
-    missing = (only or MAPPED) - data.keys() | {"run_key"} - attributes.keys()
-    if missing:
-        raise DamagedFile(f"{path}: not a run, {', '.join(sorted(missing))} missing")
-    data.pop("node", None)  # the numbers of the nodes, which `variables` adds
+    return _checked(path, data, attributes, only or MAPPED)
+
+
+def read_runs(path: str | Path) -> dict[str, StoredRun]:
+    """Read the runs in a file of `write_run` or `write_runs` by their prefix; raises as `read_run`."""
+    data, attributes = hdf5.read(path)
+    prefixes = {"", *(name.removesuffix("run_key") for name in attributes if name.endswith("run_key"))}
+    runs = {}
+    for prefix in sorted(prefixes, key=len, reverse=True):  # the empty one takes what the others leave
+        parts = [
+            {name.removeprefix(prefix): values.pop(name) for name in list(values) if name.startswith(prefix)}
+            for values in (data, attributes)
+        ]
+        runs[prefix] = _checked(path, *parts, MAPPED, prefix)
+    return runs
+
+
+def _checked(
+    path: str | Path,
+    data: dict[str, np.ndarray],
+    attributes: dict[str, Any],
+    names: Set[str],
+    prefix: str = "",
+) -> StoredRun:
+    if missing := names - data.keys() | {"run_key"} - attributes.keys():
+        listed = ", ".join(sorted(prefix + name for name in missing))
+        raise DamagedFile(f"{path}: not a run, {listed} missing")
+    data.pop("node", None)  # the numbers of the nodes, which `joined` adds
     return StoredRun(attributes, data)

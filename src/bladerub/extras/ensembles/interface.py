@@ -18,9 +18,8 @@ from bladerub.extras.ensembles.ensemble import starts
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.provenance import provenance
-from bladerub.study import run_set
 from bladerub.study.grid import speed_name
-from bladerub.study.store import StoredRun
+from bladerub.study.store import StoredRun, read_runs, write_runs
 from bladerub.study.summary import spectral_peak
 
 _START = "initial_displacement"  # attribute of each run in the file of an ensemble, m
@@ -102,7 +101,7 @@ class Ensemble(Shown, Comparable):
             together |= runs_of(run, prefix)
             attributes = run.attributes | {_START: start}
             together[prefix] = replace(run.stored, attributes=attributes)
-        run_set.write(path, together, provenance(self.planned.config.plain()))
+        write_runs(path, together, provenance(self.planned.config.plain()))
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
         table = self.bands()
@@ -202,7 +201,7 @@ def read_ensemble(path: str | Path, run: StudyRun) -> Ensemble:
     >>> br.read_ensemble("ensemble.h5", planned) == ensemble
     True
     """
-    stored = run_set.read(path)
+    stored = read_runs(path)
     numbers = range(sum(_START in stored_run.attributes for stored_run in stored.values()))
     if not numbers or any(_prefix(number) not in stored for number in numbers):
         raise DamagedFile(f"{path}: no ensemble, {_START} of its runs is missing")

@@ -156,11 +156,11 @@ def _run_of_file(
     inputs.require_writable(f"--{form}", target)
 
     from bladerub.extras.export.recording import claimed_run
-    from bladerub.study import run_set
     from bladerub.study.cache import blade_digest
+    from bladerub.study.store import read_runs
 
     with refused(OSError, because="--run "):
-        run = run_set.read(options.run)[""]
+        run = read_runs(options.run)[""]
     path = inputs.blade_path(options, config)
     if not path.exists():
         raise BadInput(f"{path}: is missing; name the blade of the run with --blade, or its --config")
