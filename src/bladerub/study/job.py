@@ -1,10 +1,9 @@
 """The job of one coating: every run that is missing or stale, and the rows of its manifest."""
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,12 +18,11 @@ from bladerub.study.cache import Entry
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import ManifestRow
-from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_file, longer_run
+from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
 from bladerub.study.solver import Solve, Solver, each_done, rows, solver_of
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_run, write_run
 
-LOCK = ".lock"
-"""Empty file in the folder of the runs, locked by the job at work on them."""
+_LISTED = {"status", "n_unconverged_steps", "energy_residual"}  # attributes of a run in its manifest
 
 
 @dataclass(frozen=True)
@@ -43,20 +41,6 @@ class RunDone:
             f"[{self.number}/{self.total}] {self.file} {self.status} in {self.seconds:.1f} s, "
             f"about {self.seconds_left:.0f} s left"
         )
-
-
-class _End(NamedTuple):
-    """What tells whether a run needs a longer one."""
-
-    amplitude: np.ndarray  # of each revolution, m
-    status: str
-
-
-class _RunFile(NamedTuple):
-    """A run that is in its file."""
-
-    row: ManifestRow  # without the longer run
-    end: _End
 
 
 def compute_missing(
@@ -80,10 +64,13 @@ def compute_missing(
     """
     folder = Path(folder)
     job = _Job(config, plan, blade, blade_digest, report, threads, folder)
-    with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
-        files = job.complete(plan.runs)
-        files |= job.complete(job.not_begun({file: each.end for file, each in files.items()}))
-        return [_row(files[run.file], files.get(longer_file(run))) for run in plan.runs]
+    waiting = f"another job is at work in {folder}: waiting for its end"
+    with lock.held(folder / ".lock", lambda: report(waiting)):
+        job.complete(plan.runs)
+        stored = [read_run(folder / run.file, {"revolution_amplitude"}, _LISTED) for run in plan.runs]
+        longer = list(map(job.longer_of, plan.runs, stored))
+        job.complete([run for run in longer if run])
+        return list(map(job.row, plan.runs, stored, longer))
 
 
 def compute_all(
@@ -101,15 +88,15 @@ def compute_all(
     the lines of the solver for a log, `advance` after each run of the plan.
     """
     job = _Job(config, plan, blade, blade_digest, report, threads)
-    stored_runs, files = {}, {run.file for run in plan.runs}
-    for run, stored, _ in job.computed(plan.runs):
-        stored_runs[run.file] = stored
+    stored, files = {}, {run.file for run in plan.runs}
+    for run, outcome, _ in job.computed(plan.runs):
+        stored[run.file] = outcome
         if run.file in files:
             advance()
-    ends = {file: _end(stored) for file, stored in stored_runs.items()}
-    stored_runs |= {run.file: stored for run, stored, _ in job.computed(job.not_begun(ends))}
-    longer = [stored_runs.get(longer_file(run)) for run in plan.runs]
-    return [stored_runs[run.file] for run in plan.runs], longer
+    longer = [job.longer_of(run, stored[run.file]) for run in plan.runs]
+    not_begun = [run for run in longer if run and run.file not in stored]
+    stored |= {run.file: outcome for run, outcome, _ in job.computed(not_begun)}
+    return [stored[run.file] for run in plan.runs], [stored[run.file] if run else None for run in longer]
 
 
 def compute(
@@ -134,16 +121,6 @@ def compute(
     return stored_run(case, run.spec, result, key, analysis, run.keep_history)
 
 
-def _row(run_file: _RunFile, longer: _RunFile | None) -> ManifestRow:
-    if longer is None:
-        return run_file.row
-    return run_file.row._replace(
-        confirmation_key=longer.row.run_key,
-        confirmation_bytes=longer.row.bytes,
-        confirmation_checksum=longer.row.checksum,
-    )
-
-
 @dataclass(frozen=True)
 class _Job:
     """The job of one coating, see `compute_missing`."""
@@ -156,62 +133,58 @@ class _Job:
     threads: int
     folder: Path | None = None  # of the files; None for what stays in memory
 
-    def longer(self, run: PlannedRun, end: _End) -> PlannedRun | None:
+    def longer(self, run: PlannedRun, amplitude: np.ndarray, status: str) -> PlannedRun | None:
         """Plan the longer run of one that grows and is to be followed; none grows that is one itself."""
-        grows = run.follow and needs_confirmation(*end, self.config.analysis.divergence)
+        grows = run.follow and needs_confirmation(amplitude, status, self.config.analysis.divergence)
         return longer_run(self.config, run) if grows else None
 
-    def not_begun(self, ends: Mapping[str, _End]) -> list[PlannedRun]:
-        """Plan the longer runs that are not yet among the `ends`, by file."""
-        longer = (self.longer(run, ends[run.file]) for run in self.plan.runs)
-        return [run for run in longer if run and run.file not in ends]
+    def longer_of(self, run: PlannedRun, stored: StoredRun) -> PlannedRun | None:
+        """Plan the longer run of one that is done."""
+        return self.longer(run, stored.data["revolution_amplitude"], stored.attributes["status"])
 
     def entry(self, run: PlannedRun) -> Entry:
         """Return the entry of a run in the store."""
         return Entry(self.folder / run.file, run.key(self.blade_digest), MAPPED)
 
-    def complete(self, runs: Sequence[PlannedRun]) -> dict[str, _RunFile]:
-        """Compute what is missing or stale of `runs`, and what goes on of these; return all by file."""
-        entries = {run.file: self.entry(run) for run in runs}
-        missing = {run.file: run for run in runs if not entries[run.file].fetch()}
-        origin, run_files, total = provenance(self.config.plain()), {}, len(missing)
+    def complete(self, runs: Sequence[PlannedRun]) -> None:
+        """Compute what is missing or stale of `runs`, and what goes on of these, into their files."""
+        missing = [run for run in runs if not self.entry(run).fetch()]
         # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
-        cost_left = sum(1 / run.spec.f_omega for run in missing.values())
+        costs = {run.file: 1 / run.spec.f_omega for run in missing}
+        origin, total = provenance(self.config.plain()), len(missing)
         cost_done, start = 0.0, time.monotonic()
-        for number, (run, stored, seconds) in enumerate(self.computed(list(missing.values())), 1):
+        for number, (run, stored, seconds) in enumerate(self.computed(missing), 1):
             entry = self.entry(run)
             entry.make_room()
-            run_files[run.file] = self.run_file(run, entry, stored, write_run(entry.path, stored, origin))
-            if run.file in missing:
-                cost_done += 1 / run.spec.f_omega
-                cost_left -= 1 / run.spec.f_omega
-            else:
-                total += 1
-            seconds_left = (time.monotonic() - start) * max(cost_left, 0.0) / cost_done
+            write_run(entry.path, stored, origin)
+            total += run.file not in costs
+            cost_done += costs.get(run.file, 0.0)
+            seconds_left = (time.monotonic() - start) * max(sum(costs.values()) / cost_done - 1, 0.0)
             status = stored.attributes["status"]
             self.report(RunDone(number, total, run.file, status, seconds, seconds_left))
-        listed = {"status", "n_unconverged_steps", "energy_residual"}
-        for run in runs:
-            if run.file not in run_files:
-                entry = entries[run.file]
-                stored = read_run(entry.path, {"revolution_amplitude"}, listed)
-                run_files[run.file] = self.run_file(run, entry, stored, file_checksum(entry.path))
-        return run_files
 
-    def run_file(self, run: PlannedRun, entry: Entry, stored: StoredRun, checksum: str) -> _RunFile:
-        """Describe the file of a run, as its manifest lists it."""
+    def row(self, run: PlannedRun, stored: StoredRun, longer: PlannedRun | None) -> ManifestRow:
+        """Describe the files of a run and of its longer one, as the manifest lists them."""
+        entry = self.entry(run)
         row = ManifestRow(
             file=run.file,
             f_omega=run.spec.f_omega,
             run_key=entry.key,
             status=stored.attributes["status"],
             bytes=entry.path.stat().st_size,
-            checksum=checksum,
+            checksum=file_checksum(entry.path),
             unconverged_steps=int(stored.attributes["n_unconverged_steps"]),
             growth_key=growth_key(self.config),
             energy_residual=float(stored.attributes["energy_residual"]),
         )
-        return _RunFile(row, _end(stored))
+        if longer is None:
+            return row
+        entry = self.entry(longer)
+        return row._replace(
+            confirmation_key=entry.key,
+            confirmation_bytes=entry.path.stat().st_size,
+            confirmation_checksum=file_checksum(entry.path),
+        )
 
     def computed(self, runs: Sequence[PlannedRun]) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
         """Yield each run as it is done, and the seconds that it took; rows last.
@@ -226,7 +199,7 @@ class _Job:
             return stored, time.monotonic() - start
 
         def revolutions(number: int, result: RunResult) -> int:
-            run = self.longer(single[number], _End(result.revolution_amplitude, result.status))
+            run = self.longer(single[number], result.revolution_amplitude, result.status)
             is_there = run and self.folder and self.entry(run).fetch()
             return run.spec.revolutions if run and not is_there else 0
 
@@ -242,7 +215,3 @@ class _Job:
         rows_of_blades = [run for run in runs if run.row]
         for run, (stored, seconds) in each_done(compute_row, rows_of_blades, self.threads):
             yield run, stored, seconds
-
-
-def _end(run: StoredRun) -> _End:
-    return _End(run.data["revolution_amplitude"], run.attributes["status"])

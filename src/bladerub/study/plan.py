@@ -95,9 +95,4 @@ def growth_key(config: Config) -> str:
 def longer_run(config: Config, run: PlannedRun) -> PlannedRun:
     """Plan the longer run that shows whether the growth of `run` lasts."""
     spec = confirmation_spec(run.spec, config.analysis.divergence)
-    return planned_run(config, spec, longer_file(run), keep_history=False, row=run.row)
-
-
-def longer_file(run: PlannedRun) -> str:
-    """Return in which file, in the folder of its coating, the longer run of `run` is."""
-    return f"{CONFIRMATION}/{run.file}"
+    return planned_run(config, spec, f"{CONFIRMATION}/{run.file}", keep_history=False, row=run.row)
