@@ -7,11 +7,12 @@ job.log_to(snakemake.log[0])
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
+from bladerub.io.provenance import provenance
 from bladerub.settings.study import typed
 from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
-from bladerub.study.maps import build_map
+from bladerub.study.maps import collect_listed, write_map
 from bladerub.workflow.progress import JobProgress
 
 config, plan = typed(snakemake.config), snakemake.params.plan
@@ -28,6 +29,6 @@ rows = compute_missing(
     threads=snakemake.threads,
 )
 if path := snakemake.output.get("map"):  # rows of blades have none
-    build_map(config, plan.case, blade, folder, rows, path)
+    write_map(path, collect_listed(config, plan.case, blade, folder, rows), provenance(config.plain()))
 write_manifest(snakemake.output.manifest, rows)
 progress.finish(rows)

@@ -10,6 +10,7 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_reduced_blade
+from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.cache import blade_digest
@@ -18,7 +19,7 @@ from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import CoatingCase, coating_cases, speeds
 from bladerub.study.job import compute_all, compute_missing
 from bladerub.study.manifest import write_manifest
-from bladerub.study.maps import CoatingMap, build_map, collect, read_map
+from bladerub.study.maps import CoatingMap, collect, collect_listed, read_map, write_map
 from bladerub.study.plan import coating_plan
 from bladerub.study.solver import each_done, solver_of
 
@@ -79,7 +80,7 @@ def map_coating(
     """
     runs, path = Path(folder) / "runs" / case.name, Path(folder) / "maps" / f"{case.name}.h5"
     rows = compute_missing(config, coating_plan(config, case), blade, runs, digest, report)
-    build_map(config, case, blade, runs, rows, path)
+    write_map(path, collect_listed(config, case, blade, runs, rows), provenance(config.plain()))
     write_manifest(runs / "manifest.tsv", rows)
     return read_map(path), len(rows) + sum(bool(row.confirmation_key) for row in rows)
 

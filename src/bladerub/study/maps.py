@@ -1,10 +1,10 @@
 """Maps: wear and spectra of one coating over all its speeds."""
 
-from collections.abc import Mapping, Sequence, Set
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, get_type_hints
+from typing import Annotated
 
 import numpy as np
 
@@ -14,13 +14,13 @@ from bladerub.io import hdf5
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
-from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow, confirmation_path
 from bladerub.study.store import HALF_RANGE, LARGEST, MAPPED, StoredRun, read_run
 from bladerub.study.wear import dominant_harmonic, lobes
 
+_SCALES = {"angle", "spectrum_order"}  # the same of all runs
 _LONGER = "confirmation_revolution_number"
 _STRONGEST = "harmonic of the casing angle strongest in the worn depth"
 DERIVED = {
@@ -77,29 +77,9 @@ class CoatingMap(Comparable):
 
 
 DATASETS: dict[str, tuple[tuple[str, ...], str, str]] = {
-    name: kind.__metadata__
-    for name, kind in get_type_hints(CoatingMap, include_extras=True).items()
-    if name != "case"
+    field.name: field.type.__metadata__ for field in fields(CoatingMap) if field.name != "case"
 }
 """Dimensions, unit and meaning of each dataset of a map."""
-
-
-def build_map(
-    config: Config,
-    case: CoatingCase,
-    blade: ReducedBlade,
-    runs_folder: str | Path,
-    rows: Sequence[ManifestRow],
-    path: str | Path,
-) -> None:
-    """Collect the runs of one coating in the map file `path`, with its `DATASETS`.
-
-    `rows` are those of the manifest of `runs_folder`. ``analysis.lobe_prominence`` of the study `config`
-    decides what counts as a lobe; `blade` is for its first frequency. Raises `OSError`, naming the file, if a
-    run is missing or damaged, or another than that of its row.
-    """
-    rows = sorted(rows, key=lambda row: row.f_omega)
-    write_map(path, collect_listed(config, case, blade, Path(runs_folder), rows), provenance(config.plain()))
 
 
 def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:
@@ -108,24 +88,28 @@ def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:
 
 
 def collect_listed(
-    config: Config, case: CoatingCase, blade: ReducedBlade, folder: Path, rows: Sequence[ManifestRow]
+    config: Config, case: CoatingCase, blade: ReducedBlade, folder: str | Path, rows: Iterable[ManifestRow]
 ) -> CoatingMap:
-    """Collect the runs in `folder` that these rows of its manifest list, at ascending speeds.
+    """Collect the runs of one coating in `folder` that these `rows` of its manifest list.
 
-    Parameters and errors are those of `build_map`.
+    ``analysis.lobe_prominence`` of the study `config` decides what counts as a lobe; `blade` is for its first
+    frequency. Raises `OSError`, naming the file, if a run is missing or damaged, or another than that of its
+    row.
     """
-    runs = [_listed_run(folder, folder / row.file, row.run_key, MAPPED) for row in rows]
-    scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"})
-    runs[0].data.update(scales.data)
-    longer = [_longer_run(folder, row) for row in rows]
+    folder, rows = Path(folder), sorted(rows, key=lambda row: row.f_omega)
+
+    def read_listed(path: Path, key: str, datasets: Set[str]) -> StoredRun:
+        run = read_run(path, datasets, {"status"})
+        if run.attributes["run_key"] != key:
+            raise DamagedFile(f"{path}: not the run that {folder / 'manifest.tsv'} lists, its key differs")
+        return run
+
+    runs, longer = [], []
+    for row in rows:
+        path, key = folder / row.file, row.confirmation_key
+        runs.append(read_listed(path, row.run_key, MAPPED | _SCALES))
+        longer.append(read_listed(confirmation_path(path), key, {"revolution_amplitude"}) if key else None)
     return collect(config, case, blade, [row.f_omega for row in rows], runs, longer)
-
-
-def _longer_run(folder: Path, row: ManifestRow) -> StoredRun | None:
-    if not row.confirmation_key:
-        return None
-    path = confirmation_path(folder / row.file)
-    return _listed_run(folder, path, row.confirmation_key, {"revolution_amplitude"})
 
 
 def collect(
@@ -139,41 +123,29 @@ def collect(
     """Collect runs of one coating at ascending speeds (normalised), and their longer runs or None.
 
     Of the first run all datasets are needed, of the others `MAPPED`, of the longer ones the amplitude. Other
-    parameters are those of `build_map`.
+    parameters are those of `collect_listed`.
     """
     prominence = config.analysis.lobe_prominence
-    scales = {name: runs[0].data[name] for name in ("angle", "spectrum_order")}
+    scales = {name: runs[0].data[name] for name in _SCALES}
     collected = {name: np.stack([run.data[name] for run in runs]) for name in MAPPED}
     wear = collected.pop("wear")
+    longest = max((run.data["revolution_amplitude"].size for run in longer if run), default=0)
+    none = np.full(longest, np.nan)
     return CoatingMap(
         case=case,
         f_omega=np.array(speeds),
         C1=first_frequency(blade, speeds),
         wear=np.stack([run_wear.mean(axis=0) for run_wear in wear]),
         wear_node=wear,
-        confirmation_amplitude=_confirmation_amplitude(longer),
+        confirmation_amplitude=np.stack(
+            [run.data["revolution_amplitude"] if run else none for run in longer]
+        ),
         max_wear=wear.max(axis=(1, 2)),
         lobes=np.array([lobes(scales["angle"], run_wear, prominence) for run_wear in wear]),
         status=np.array([run.attributes["status"] for run in runs]),
         **scales,
         **collected,
     )
-
-
-def _confirmation_amplitude(longer: Sequence[StoredRun | None]) -> np.ndarray:
-    amplitudes = {i: run.data["revolution_amplitude"] for i, run in enumerate(longer) if run is not None}
-    revolutions = max((amplitude.size for amplitude in amplitudes.values()), default=0)
-    collected = np.full((len(longer), revolutions), np.nan)
-    for index, amplitude in amplitudes.items():
-        collected[index] = amplitude
-    return collected
-
-
-def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> StoredRun:
-    run = read_run(path, datasets, {"status"})
-    if run.attributes["run_key"] != key:
-        raise DamagedFile(f"{path}: not the run that {folder / 'manifest.tsv'} lists, its key differs")
-    return run
 
 
 def write_map(path: str | Path, coating: CoatingMap, origin: Mapping[str, str]) -> None:
@@ -202,11 +174,10 @@ def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
 
     Raises `OSError`, naming the file, if it is missing, damaged or not a map.
     """
-    data, attributes = hdf5.read(path, DATASETS.keys() - (set() if with_nodes else {"wear_node"}))
+    unread = {} if with_nodes else {"wear_node": None}
+    data, attributes = hdf5.read(path, DATASETS.keys() - unread)
     try:
-        case = CoatingCase.described(attributes)
-        if not with_nodes:
-            data["wear_node"] = None
-        return CoatingMap(case=case, **{name: data[name] for name in DATASETS})
+        arrays = {name: data[name] for name in DATASETS if name not in unread}
+        return CoatingMap(CoatingCase.described(attributes), **arrays, **unread)
     except KeyError as error:
         raise DamagedFile(f"{path}: not a map, {error} is missing") from error

@@ -36,7 +36,8 @@ def folder(tmp_path, config, case, make_result, write_run):
 @pytest.fixture
 def build(config, case, blade, folder):
     def build_to(path):
-        maps.build_map(config, case, blade, folder, read_manifest(folder / "manifest.tsv"), path)
+        rows = read_manifest(folder / "manifest.tsv")
+        maps.write_map(path, maps.collect_listed(config, case, blade, folder, rows), {})
         return path
 
     return build_to

@@ -127,8 +127,7 @@ def test_real_runs_go_from_the_solver_to_the_table(quick, case, blade, tmp_path)
     study, plan = quick
     folder = tmp_path / "runs"
     rows = compute_missing(study, plan, blade, folder, "digest")
-    maps.build_map(study, case, blade, folder, rows, tmp_path / "map.h5")
-    coating = maps.read_map(tmp_path / "map.h5", with_nodes=True)
+    coating = maps.collect_listed(study, case, blade, folder, rows)
     table = divergence.table(study, [coating])
     assert list(table.f_omega) == [0.1, 0.2, 0.3]
     assert set(table.status) == {"completed"}
