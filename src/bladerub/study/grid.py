@@ -83,9 +83,8 @@ class CoatingCase:
     @property
     def own(self) -> dict[str, float]:
         """Its values for keys of `OWN`, as in the config."""
-        keys = {sign: key for key, sign in OWN.items()}
-        parts = (re.fullmatch(r"([a-z]+)(.+)", part) for part in self.variant.split("_") if part)
-        return {keys[part[1]]: float(part[2]) for part in parts}
+        values = dict(re.findall(r"([a-z]+)([^_]+)", self.variant))
+        return {key: float(values[sign]) for key, sign in OWN.items() if sign in values}
 
     @property
     def is_rigid(self) -> bool:

@@ -74,45 +74,38 @@ def growth(amplitude: np.ndarray, settings: Divergence) -> Growth:
     if window.size and not window.any():
         return Growth(0.0, 0.0, 0.0)
     number = np.flatnonzero(window > 0)
-    log_amplitude, time = np.log(window[number]), number - float(window.size - 1)
-    if number.size < 2:
-        return Growth(float("nan"), float("nan"), float("nan"))
-    (_, slope), (_, margin) = _parameters(time, log_amplitude, 1, settings.confidence)
-    low, high = np.expm1(slope - margin), np.expm1(slope + margin)
+    fit = number - float(window.size - 1), np.log(window[number]), settings.confidence
+    low, slope, high = (float(np.expm1(bound[1])) for bound in _parameters(1, *fit))
     threshold, before = settings.growth, record[: -settings.revolutions].max(initial=0.0)
-    outgrown = window.max() > before * (1 + threshold) ** settings.revolutions
-    grows = bool(low > threshold and outgrown)
-    levels_off = grows and _bends_to(threshold, time, log_amplitude, settings.confidence)
-    return Growth(float(np.expm1(slope)), float(low), float(high), grows, levels_off)
-
-
-def _bends_to(threshold: float, time: np.ndarray, log_amplitude: np.ndarray, confidence: float) -> bool:
-    (_, slope, curvature), (_, slope_margin, curvature_margin) = _parameters(
-        time, log_amplitude, 2, confidence
-    )
-    bent = curvature + curvature_margin < 0
-    return bool(bent and np.expm1(slope - slope_margin) <= threshold)
+    outgrown = window.max(initial=0.0) > before * (1 + threshold) ** settings.revolutions
+    if not (low > threshold and outgrown):
+        return Growth(slope, low, high)
+    lowest, _, highest = _parameters(2, *fit)
+    levels_off = bool(highest[2] < 0 and np.expm1(lowest[1]) <= threshold)
+    return Growth(slope, low, high, True, levels_off)
 
 
 def _parameters(
-    time: np.ndarray, log_amplitude: np.ndarray, degree: int, confidence: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Fit a polynomial in `time`: coefficients from the constant up, and half their confidence intervals.
+    degree: int, time: np.ndarray, log_amplitude: np.ndarray, confidence: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Fit a polynomial in `time`: coefficients from the constant up, between lower and upper bounds.
 
-    Time is 0 at the last revolution, so the second coefficient is the slope there. The half widths are NaN
-    where no revolution is left to show the scatter.
+    Time is 0 at the last revolution, so the second coefficient is the slope there. The bounds are those of
+    confidence, NaN where no revolution is left to show the scatter; with fewer all is NaN.
     """
-    if time.size <= degree:
-        return np.full(degree + 1, np.nan), np.full(degree + 1, np.nan)
+    missing = np.full(degree + 1, np.nan)
+    freedom = time.size - degree - 1
+    if freedom < 0:
+        return missing, missing, missing
     design, inverse = _least_squares(tuple(time.tolist()), degree)
     coefficients = inverse @ log_amplitude
-    freedom = time.size - degree - 1
     if freedom == 0:
-        return coefficients, np.full(degree + 1, np.nan)
+        return missing, coefficients, missing
     residual = log_amplitude - design @ coefficients
     scatter = max(float(np.sqrt(residual @ residual / freedom)), RESOLUTION)
     error = scatter * np.linalg.norm(inverse, axis=1)
-    return coefficients, scipy.special.stdtrit(freedom, (1 + confidence) / 2) * error
+    margin = scipy.special.stdtrit(freedom, (1 + confidence) / 2) * error
+    return coefficients - margin, coefficients, coefficients + margin
 
 
 @lru_cache(maxsize=64)  # most runs have amplitudes at the same times
