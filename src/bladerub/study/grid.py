@@ -58,14 +58,9 @@ class CoatingCase:
     variant: str = ""  # values of its own (`OWN`) as in its name: ``xi0.001_h0.004_d0.0004``
 
     @classmethod
-    def coulomb(cls, casing: str, E: float, K: float, friction: float) -> "CoatingCase":
-        """Describe an abradable coating under Coulomb's coefficient `friction`."""
-        return cls(casing, E, K, math.atan(friction), "coulomb")
-
-    @classmethod
     def rigid(cls, casing: str, friction: float) -> "CoatingCase":
         """Direct contact with the rigid casing under Coulomb's coefficient `friction`."""
-        return cls.coulomb(casing, math.inf, math.inf, friction)
+        return cls(casing, math.inf, math.inf, math.atan(friction), "coulomb")
 
     @classmethod
     def described(cls, attributes: Mapping[str, Any]) -> "CoatingCase":
@@ -150,9 +145,9 @@ def _values(entry: OnCasing) -> dict[str, Any]:
 def _case(casing: str, values: Mapping[str, float]) -> CoatingCase:
     # not -0.0, which has another name
     layer = {key: float(values[key]) + 0.0 for key in _LAYER if key in values}
-    make = CoatingCase.coulomb if "friction" in layer else CoatingCase
-    case = (make if "E" in layer else CoatingCase.rigid)(casing, **layer)
-    return case.with_own(**{key: values[key] for key in OWN if key in values})
+    moduli = layer.get("E", math.inf), layer.get("K", math.inf)
+    angle = (math.atan(layer["friction"]), "coulomb") if "friction" in layer else (layer["theta"], "theta")
+    return CoatingCase(casing, *moduli, *angle).with_own(**{key: values[key] for key in OWN if key in values})
 
 
 def case_from_name(config: Config, name: str) -> CoatingCase:

@@ -64,16 +64,12 @@ class CoatingMap(Comparable):
     @cached_property
     def wear_harmonic(self) -> np.ndarray:
         """Harmonic (n,) that is strongest in the wear, see `bladerub.study.wear.dominant_harmonic`."""
-        return np.array([harmonic for harmonic, _ in self._harmonics], dtype=int)
+        return np.array([dominant_harmonic(wear)[0] for wear in self.wear])
 
     @cached_property
     def wear_harmonic_share(self) -> np.ndarray:
         """Share (n,) of that harmonic in the variance of the worn depth."""
-        return np.array([share for _, share in self._harmonics])
-
-    @cached_property
-    def _harmonics(self) -> list[tuple[int, float]]:
-        return [dominant_harmonic(wear) for wear in self.wear]
+        return np.array([dominant_harmonic(wear)[1] for wear in self.wear])
 
 
 DATASETS: dict[str, tuple[tuple[str, ...], str, str]] = {

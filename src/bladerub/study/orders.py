@@ -6,8 +6,6 @@ from bladerub.settings.study import Config
 from bladerub.study.grid import casing_kind, coating_cases, speeds
 from bladerub.study.paper import ORDERS
 
-_DERIVED = 2  # orders of a casing that does not excite those of the config, as many as the paper has
-
 
 def peak_orders(config: Config, casing: str) -> list[int]:
     """Return the orders of the coatings of one casing: its ``peak_orders``, or ``analysis.peaks.orders``.
@@ -54,7 +52,7 @@ def excited_orders(config: Config, casing: str) -> list[int]:
     excited = [
         k for k in orders if k >= lowest_order and k * slowest <= 1 and excites(config.casings[casing], k)
     ]
-    return excited[:_DERIVED]
+    return excited[:2]  # as many as the paper has
 
 
 def used_casings(config: Config) -> list[str]:

@@ -14,9 +14,6 @@ from bladerub.study.growth import confirmation_determinants, confirmation_spec
 from bladerub.study.manifest import CONFIRMATION
 from bladerub.study.solver import row_of, rows, solver_of
 
-SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
-"""Keys of ``config.analysis`` that decide what a run file holds; the others act on maps and tables."""
-
 
 @dataclass(frozen=True)
 class PlannedRun:
@@ -56,6 +53,8 @@ def planned_run(
     follow: bool = True,
 ) -> PlannedRun:
     """Plan one run (see `PlannedRun`); `config` is the study."""
+    # the other keys of the analysis act on maps and tables
+    shaping = {name: float(getattr(config.analysis, name)) for name in ("spectrum_revolutions", "max_order")}
     determinants = {
         "spec": spec,
         "solver": solver_digest(),
@@ -63,7 +62,7 @@ def planned_run(
         **motion_digest(spec),
         "storage": storage_digest(),
         "keep_history": bool(keep_history),
-        "analysis": {name: float(getattr(config.analysis, name)) for name in SHAPING_SETTINGS},
+        "analysis": shaping,
     }
     if row:
         determinants |= rows().determinants(row)

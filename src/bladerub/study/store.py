@@ -125,12 +125,9 @@ def datasets() -> dict[str, tuple[tuple[str, ...], str, str]]:
     return {name: entry for part in parts for name, entry in part.items()}
 
 
-def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> str:
-    """Write one run to `path`, whole or not at all; return the checksum of the file.
-
-    `origin` is its provenance (`bladerub.io.provenance.provenance`).
-    """
-    return hdf5.write(path, *joined({"": run}), origin, _REPEATED)
+def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> None:
+    """Write one run to `path`, whole or not at all; `origin` is of `bladerub.io.provenance.provenance`."""
+    hdf5.write(path, *joined({"": run}), origin, _REPEATED)
 
 
 def write_runs(path: str | Path, runs: Mapping[str, StoredRun], origin: Mapping[str, str]) -> None:

@@ -6,7 +6,6 @@ A table has the column only if one of its coatings is a variant.
 from collections.abc import Sequence
 from dataclasses import asdict
 
-import numpy as np
 import pandas as pd
 
 from bladerub.study.grid import CoatingCase
@@ -24,9 +23,8 @@ def plain(table: pd.DataFrame) -> pd.DataFrame:
 
 def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
     """Return the rows of one coating."""
-    rows = filled(table)
-    matches = [rows[name] == value for name, value in asdict(case).items()]
-    return table[np.logical_and.reduce(matches)]
+    about = asdict(case)
+    return table[(filled(table)[list(about)] == list(about.values())).all(axis=1)]
 
 
 def filled(table: pd.DataFrame) -> pd.DataFrame:
