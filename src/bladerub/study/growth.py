@@ -26,7 +26,6 @@ The paper calls a run divergent when its amplitude "continuously grows with time
 """
 
 from dataclasses import replace
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -97,7 +96,8 @@ def _parameters(
     freedom = time.size - degree - 1
     if freedom < 0:
         return missing, missing, missing
-    design, inverse = _least_squares(tuple(time.tolist()), degree)
+    design = np.vander(time, degree + 1, increasing=True)  # from coefficients to values
+    inverse = np.linalg.pinv(design)
     coefficients = inverse @ log_amplitude
     if freedom == 0:
         return missing, coefficients, missing
@@ -106,13 +106,6 @@ def _parameters(
     error = scatter * np.linalg.norm(inverse, axis=1)
     margin = scipy.special.stdtrit(freedom, (1 + confidence) / 2) * error
     return coefficients - margin, coefficients, coefficients + margin
-
-
-@lru_cache(maxsize=64)  # most runs have amplitudes at the same times
-def _least_squares(time: tuple[float, ...], degree: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the matrix from the coefficients of a polynomial to its values at `time`, and back."""
-    design = np.vander(time, degree + 1, increasing=True)
-    return design, np.linalg.pinv(design)
 
 
 def needs_confirmation(amplitude: np.ndarray, status: str, settings: Divergence) -> bool:

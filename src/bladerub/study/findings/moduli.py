@@ -125,18 +125,16 @@ def _height(table: pd.DataFrame, young: float, hardening: float) -> float:
 def _stiffened(evidence: Evidence, order: int) -> list[pd.Series]:
     """Return f_k over ascending K, for each E above 0.5 that the study has with two K or more."""
     table = _moduli(evidence, order, "f_peak")
-    columns = [table[young].dropna() for young in table.columns if young > paper.STIFFENING_FROM]
-    columns = [f_peak for f_peak in columns if f_peak.size >= 2]
-    if not columns:
+    table = table.loc[:, (table.columns > paper.STIFFENING_FROM) & (table.count() >= 2)]
+    if table.empty:
         raise NotMeasurable(f"no E above {paper.STIFFENING_FROM:g} with two K or more in the study")
-    return columns
+    return [table[young].dropna() for young in table]
 
 
 def _soft_hardening(evidence: Evidence, order: int, column: str) -> pd.DataFrame:
     """Return Y_k or f_k for the lowest K, where the study has two E or more."""
     table = _moduli(evidence, order, column)
-    table = table.loc[table.index <= paper.SOFT_HARDENING]
-    table = table[table.count(axis=1) >= 2]
+    table = table[(table.index <= paper.SOFT_HARDENING) & (table.count(axis=1) >= 2)]
     if table.empty:
         raise NotMeasurable(f"no K up to {paper.SOFT_HARDENING:g} with two E or more in the study")
     return table
