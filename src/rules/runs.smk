@@ -6,8 +6,7 @@ from functools import cache
 from bladerub.blade.model import n_interface
 from bladerub.contact.laws import law_digest
 from bladerub.study.grid import case_from_name, element_law, speeds
-from bladerub.study.growth import confirmation_determinants
-from bladerub.study.plan import coating_plan
+from bladerub.study.plan import coating_plan, growth_key
 from bladerub.contact.sources import solver_digest
 from bladerub.workflow.cores import costs_of, priority_of, threads_for
 
@@ -100,6 +99,6 @@ rule coating:
         lobe_prominence=config["analysis"]["lobe_prominence"],
         plan=lambda wildcards: plan_of(wildcards.coating),  # no reason to run, being an object
         planned=planned_runs,
-        confirmed=confirmation_determinants(STUDY.analysis.divergence),
+        confirmed=growth_key(STUDY),
     script:
         "../scripts/coating.py"

@@ -26,7 +26,7 @@ The paper calls a run divergent when its amplitude "continuously grows with time
 """
 
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import scipy
@@ -141,13 +141,6 @@ def judge(
 def confirmation_spec(spec: RunSpec, settings: Divergence) -> RunSpec:
     """Describe the longer run of `spec`: the same from rest with the same step, for more revolutions."""
     return replace(spec, revolutions=settings.confirmation_revolutions)
-
-
-def confirmation_determinants(settings: Divergence) -> dict[str, Any]:
-    """Return what decides which runs go on, besides the runs themselves; nothing where none is."""
-    if settings.confirmation_revolutions == 0:
-        return {}
-    return {**settings.plain(), "definition": growth_digest()}
 
 
 def growth_digest() -> str:

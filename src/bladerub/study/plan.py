@@ -10,7 +10,7 @@ from bladerub.io.sources import digest_of
 from bladerub.settings.study import Config
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
-from bladerub.study.growth import confirmation_determinants, confirmation_spec
+from bladerub.study.growth import confirmation_spec, growth_digest
 from bladerub.study.manifest import CONFIRMATION
 from bladerub.study.solver import row_of, rows, solver_of
 
@@ -88,7 +88,9 @@ def coating_plan(config: Config, case: CoatingCase) -> CoatingPlan:
 
 def growth_key(config: Config) -> str:
     """Digest what decides which runs need a longer one, besides the runs themselves."""
-    return cache.digest(confirmation_determinants(config.analysis.divergence))
+    settings = config.analysis.divergence
+    decisive = {**settings.plain(), "definition": growth_digest()}
+    return cache.digest(decisive if settings.confirmation_revolutions else {})
 
 
 def longer_run(config: Config, run: PlannedRun) -> PlannedRun:

@@ -10,8 +10,8 @@ from bladerub.extras.export.recording import claimed_run
 from bladerub.io import provenance
 from bladerub.study import grid, plan
 from bladerub.study.grid import CoatingCase, run_spec
-from bladerub.study.growth import confirmation_determinants, confirmation_spec
-from bladerub.study.plan import coating_plan, longer_run, planned_run
+from bladerub.study.growth import confirmation_spec
+from bladerub.study.plan import coating_plan, growth_key, longer_run, planned_run
 from bladerub.study.store import StoredRun
 
 
@@ -102,12 +102,11 @@ def test_the_longer_run_is_the_same_run_for_longer(config, spec):
 
 
 def test_every_setting_decides_which_runs_are_repeated_and_none_where_none_is(config):
-    settings = config.analysis.divergence
-    before = confirmation_determinants(settings)
-    for name, value in settings.plain().items():
-        assert confirmation_determinants(settings.replaced(name, 2 * value)) != before
-    off = settings.replaced("confirmation_revolutions", 0)
-    assert confirmation_determinants(off) == confirmation_determinants(off.replaced("growth", 0.5)) == {}
+    before = growth_key(config)
+    for name, value in config.analysis.divergence.plain().items():
+        assert growth_key(config.replaced(f"analysis.divergence.{name}", 2 * value)) != before
+    off = config.replaced("analysis.divergence.confirmation_revolutions", 0)
+    assert growth_key(off) == growth_key(off.replaced("analysis.divergence.growth", 0.5))
 
 
 @pytest.mark.parametrize(("history", "revolutions"), [(False, 20), (True, 3)])
