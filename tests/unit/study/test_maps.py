@@ -34,17 +34,13 @@ def folder(tmp_path, config, case, make_result, write_run):
 
 
 @pytest.fixture
-def build(config, case, blade, folder):
-    def build_to(path):
-        rows = read_manifest(folder / "manifest.tsv")
-        maps.write_map(path, maps.collect_listed(config, case, blade, folder, rows), {})
-        return path
-
-    return build_to
+def collect(config, case, blade, folder):
+    rows = read_manifest(folder / "manifest.tsv")
+    return lambda: maps.collect_listed(config, case, blade, folder, rows)
 
 
-def test_a_map_gathers_the_runs_by_speed(build, tmp_path, make_result):
-    coating = maps.read_map(build(tmp_path / "map.h5"), with_nodes=True)
+def test_a_map_gathers_the_runs_by_speed(collect, make_result):
+    coating = collect()
     np.testing.assert_array_equal(coating.f_omega, SPEEDS)
     np.testing.assert_allclose(coating.C1, np.sqrt(1 + 3 * np.square(SPEEDS)))
     assert list(coating.lobes) == [10, 6, 4]
@@ -71,16 +67,16 @@ def test_a_map_comes_back_as_written(tmp_path, case, make_map):
 
 
 @pytest.mark.parametrize("which", ["runs", "longer runs"])
-def test_a_run_that_is_damaged_missing_or_stale_is_named(build, folder, tmp_path, which):
+def test_a_run_that_is_damaged_missing_or_stale_is_named(collect, folder, which):
     paths = [folder / "0.1900.h5", folder / "0.3000.h5"]
     path, other = paths if which == "runs" else map(confirmation_path, paths)
     name = path.relative_to(folder)
     path.write_bytes(path.read_bytes()[:5000])
     with pytest.raises(DamagedFile, match=rf"{name}: not a readable HDF5 file"):
-        build(tmp_path / "map.h5")
+        collect()
     path.write_bytes(other.read_bytes())
     with pytest.raises(OSError, match=rf"{name}: not the run that .*manifest\.tsv lists"):
-        build(tmp_path / "map.h5")
+        collect()
     path.unlink()
     with pytest.raises(OSError, match=rf"No such file .*{name}"):
-        build(tmp_path / "map.h5")
+        collect()

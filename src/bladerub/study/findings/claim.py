@@ -80,7 +80,7 @@ def _place(id_: str) -> tuple[str, int, str]:
     return parts[1], int(parts[2]), parts[3]
 
 
-def ratio(value: float, to: float, label: str) -> float:
+def ratio(value: Any, to: float, label: str) -> Any:
     """Divide amplitudes; raises `NotMeasurable`, which names them by `label`, where the second is none."""
     if not to > 0:
         raise NotMeasurable(f"{label}: an amplitude of {to:g} m is nothing to compare with")

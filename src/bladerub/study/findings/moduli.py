@@ -19,7 +19,7 @@ _SECTION = 'section "Local maxima evolution"'
 def greatest(evidence: Evidence, order: int, figure: str) -> Finding:
     """Rank the coatings by height."""
     ranked = _with_critical(evidence, order).stack().dropna().sort_values(ascending=False)
-    relative = ranked.map(lambda height: ratio(height, ranked.iloc[0], f"Y{order}"))
+    relative = ratio(ranked, ranked.iloc[0], f"Y{order}")
     critical = relative[paper.CRITICAL_K, paper.CRITICAL_E]
     first = [f"({e:g}, {k:g}) at {height:.2f}" for (k, e), height in relative.iloc[:3].items()]
     return Finding(
@@ -180,7 +180,7 @@ def _offset(evidence: Evidence, order: int, column: str) -> pd.Series:
     if stiff.size < 2 or stiff.index[-1] < stiffest:
         raise NotMeasurable(f"at the highest K no E from {stiffest:g} on and another from {_STIFF:g} on")
     if column == "amplitude":
-        return stiff.map(lambda height: ratio(height, rigid, paper.RIGID.name) - 1)
+        return ratio(stiff, rigid, paper.RIGID.name) - 1
     return stiff - rigid
 
 

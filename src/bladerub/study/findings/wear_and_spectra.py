@@ -154,8 +154,7 @@ def critical_all_orders(evidence: Evidence) -> Finding:
     amplitudes = heights[np.isfinite(heights)]
     if amplitudes.size < 2:
         raise NotMeasurable(f"{CRITICAL.name}: fewer than two engine orders have a peak within its speeds")
-    relative = np.array([ratio(amplitude, amplitudes.max(), CRITICAL.name) for amplitude in amplitudes])
-    share = 100 * float(np.mean(relative >= SIGNIFICANT))
+    share = 100 * float(np.mean(ratio(amplitudes, amplitudes.max(), CRITICAL.name) >= SIGNIFICANT))
     text = (
         "E = 1.1: significant amplitude where each engine order crosses C1: "
         f"share of {amplitudes.size} orders (Fig. 9)"
