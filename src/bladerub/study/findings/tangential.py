@@ -8,6 +8,9 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.paper import STRAIGHT, STRAIGHT_SPEED, TILTED, TILTED_SPEED
 
 _LOBES = 6  # worn lobes of both divergent runs (Fig. 19), so their engine order too
+_PAPER_F6_SHIFT = TILTED_SPEED - STRAIGHT_SPEED
+_HISTORIES = {TILTED_SPEED: "Fig. 17", STRAIGHT_SPEED: "Fig. 18"}
+_PATTERNS = {TILTED: "Fig. 19(a)", STRAIGHT: "Fig. 19(b)"}
 _SECTION = 'section "Influence of parameter θ"'
 _AT_TILTED_PEAK = "at the speed where this model has f6 with θ = 0.15"
 _AT_STRAIGHT_PEAK = "at the speed where this model has f6 with θ = 0"
@@ -24,12 +27,7 @@ def lower_amplitude(evidence: Evidence, order: int) -> Finding:
 
 
 @claim("C10c", f"θ = 0.15 lowers f4 ({_SECTION}, Figs. 15 and 16)", 4, "below 0")
-@claim(
-    "C10d",
-    f"θ = 0.15 lowers f6 ({_SECTION}, Figs. 15 and 16; 0.197 to 0.190)",
-    6,
-    TILTED_SPEED - STRAIGHT_SPEED,
-)
+@claim("C10d", f"θ = 0.15 lowers f6 ({_SECTION}, Figs. 15 and 16; 0.197 to 0.190)", 6, _PAPER_F6_SHIFT)
 def lower_speed(evidence: Evidence, order: int, paper: float | str) -> Finding:
     """Shift of the speed of the peak; none is less than a speed step."""
     shift = evidence.peak(TILTED, order, "f_peak") - evidence.peak(STRAIGHT, order, "f_peak")
@@ -38,11 +36,11 @@ def lower_speed(evidence: Evidence, order: int, paper: float | str) -> Finding:
     return Finding(text, paper, shift, "1", holds, -shift)
 
 
-@claim("C11a", f"θ = 0.15 diverges at f_Ω = 0.190 ({_SECTION}, Fig. 17)", TILTED, TILTED_SPEED, "Fig. 17")
-@claim("C11b", f"θ = 0 diverges at f_Ω = 0.197 ({_SECTION}, Fig. 18)", STRAIGHT, STRAIGHT_SPEED, "Fig. 18")
-@claim("C11g", f"as C11a, {_AT_TILTED_PEAK}", TILTED, None, "our f6")
-@claim("C11h", f"as C11b, {_AT_STRAIGHT_PEAK}", STRAIGHT, None, "our f6")
-def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, source: str) -> Finding:
+@claim("C11a", f"θ = 0.15 diverges at f_Ω = 0.190 ({_SECTION}, Fig. 17)", TILTED, TILTED_SPEED)
+@claim("C11b", f"θ = 0 diverges at f_Ω = 0.197 ({_SECTION}, Fig. 18)", STRAIGHT, STRAIGHT_SPEED)
+@claim("C11g", f"as C11a, {_AT_TILTED_PEAK}", TILTED)
+@claim("C11h", f"as C11b, {_AT_STRAIGHT_PEAK}", STRAIGHT)
+def diverges(evidence: Evidence, case: CoatingCase, speed: float | None = None) -> Finding:
     """Growth of the run at `speed`, at this model's f6 if there is none."""
     f_omega = evidence.peak(case, _LOBES, "f_peak") if speed is None else speed
     run, threshold = evidence.run(case, f_omega), evidence.config.analysis.divergence.growth
@@ -50,53 +48,35 @@ def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, source:
     # growth that ends after the paper's revolutions, or that the scatter hides, is half of the claim
     hidden = run.growth_per_revolution > threshold >= surely
     holds = YES if run.divergent else PARTLY if run.saturating or hidden else NO
+    source = _HISTORIES.get(speed, "our f6")
     text = f"theta = {case.theta:g} diverges at f_omega = {f_omega:g}: growth a revolution ({source})"
     growth = _growth(run, "growth_per_revolution")
     return Finding(text, f"surely above {threshold:g}", growth, "1", holds, surely - threshold)
 
 
-@claim(
-    "C11c", f"θ = 0 does not diverge at f_Ω = 0.190 ({_SECTION}, Fig. 17)", STRAIGHT, TILTED_SPEED, "Fig. 17"
-)
-@claim(
-    "C11d",
-    f"θ = 0.15 does not diverge at f_Ω = 0.197 ({_SECTION}, Fig. 18)",
-    TILTED,
-    STRAIGHT_SPEED,
-    "Fig. 18",
-)
-@claim("C11i", f"as C11c, {_AT_TILTED_PEAK}", STRAIGHT, TILTED, "our f6 of theta = 0.15")
-@claim("C11j", f"as C11d, {_AT_STRAIGHT_PEAK}", TILTED, STRAIGHT, "our f6 of theta = 0")
-def is_steady(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase, source: str) -> Finding:
+@claim("C11c", f"θ = 0 does not diverge at f_Ω = 0.190 ({_SECTION}, Fig. 17)", STRAIGHT, TILTED_SPEED)
+@claim("C11d", f"θ = 0.15 does not diverge at f_Ω = 0.197 ({_SECTION}, Fig. 18)", TILTED, STRAIGHT_SPEED)
+@claim("C11i", f"as C11c, {_AT_TILTED_PEAK}", STRAIGHT, TILTED)
+@claim("C11j", f"as C11d, {_AT_STRAIGHT_PEAK}", TILTED, STRAIGHT)
+def is_steady(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase) -> Finding:
     """Growth of the run at `speed`, or at this model's f6 of another coating."""
     f_omega = _distinct_peak(evidence, speed) if isinstance(speed, CoatingCase) else speed
     run, threshold = evidence.run(case, f_omega), evidence.config.analysis.divergence.growth
     holds = NO if run.divergent else PARTLY if run.saturating else YES
+    source = _HISTORIES.get(speed) or f"our f6 of theta = {speed.theta:g}"
     text = f"theta = {case.theta:g} does not diverge at f_omega = {f_omega:g}: growth a revolution ({source})"
     growth, margin = _growth(run, "growth_per_revolution"), threshold - _growth(run, "growth_low")
     return Finding(text, f"not surely above {threshold:g}", growth, "1", holds, margin)
 
 
-@claim(
-    "C11e",
-    f"six worn lobes with θ = 0.15 at f_Ω = 0.190 ({_SECTION}, Fig. 19(a))",
-    TILTED,
-    TILTED_SPEED,
-    "Fig. 19(a)",
-)
-@claim(
-    "C11f",
-    f"six worn lobes with θ = 0 at f_Ω = 0.197 ({_SECTION}, Fig. 19(b))",
-    STRAIGHT,
-    STRAIGHT_SPEED,
-    "Fig. 19(b)",
-)
-@claim("C11k", f"as C11e, {_AT_TILTED_PEAK}", TILTED, None, "our f6")
-@claim("C11l", f"as C11f, {_AT_STRAIGHT_PEAK}", STRAIGHT, None, "our f6")
-def six_lobes(evidence: Evidence, case: CoatingCase, speed: float | None, source: str) -> Finding:
+@claim("C11e", f"six worn lobes with θ = 0.15 at f_Ω = 0.190 ({_SECTION}, Fig. 19(a))", TILTED, TILTED_SPEED)
+@claim("C11f", f"six worn lobes with θ = 0 at f_Ω = 0.197 ({_SECTION}, Fig. 19(b))", STRAIGHT, STRAIGHT_SPEED)
+@claim("C11k", f"as C11e, {_AT_TILTED_PEAK}", TILTED)
+@claim("C11l", f"as C11f, {_AT_STRAIGHT_PEAK}", STRAIGHT)
+def six_lobes(evidence: Evidence, case: CoatingCase, speed: float | None = None) -> Finding:
     """Lobes worn by the run at `speed`, at this model's f6 if there is none; and the strongest harmonic."""
     f_omega = evidence.peak(case, _LOBES, "f_peak") if speed is None else speed
-    run = evidence.run(case, f_omega)
+    run, source = evidence.run(case, f_omega), _PATTERNS[case] if speed else "our f6"
     text = f"six worn lobes with theta = {case.theta:g} at f_omega = {f_omega:g} ({source})"
     by_lobes, by_harmonic = (
         Finding(text, _LOBES, int(count), "1", *below(abs(int(count) - _LOBES), 0, 1))
