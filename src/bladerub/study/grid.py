@@ -93,10 +93,7 @@ class CoatingCase:
 
     @property
     def name(self) -> str:
-        """Name in paths, for instance ``2nd_E0.11_K0.5_theta0``, ``..._mu0.15`` or ``2nd_rigid_mu0.15``.
-
-        The variant is appended if there is one.
-        """
+        """Name in paths, such as ``2nd_E0.11_K0.5_theta0`` or ``2nd_rigid_mu0.15``; a variant comes last."""
         layer = "rigid" if self.is_rigid else f"E{self.E:g}_K{self.K:g}"
         angle = f"theta{self.theta:g}" if self.law == "theta" else f"mu{self.friction:g}"
         return f"{self.casing}_{layer}_{angle}" + (f"_{self.variant}" if self.variant else "")
@@ -131,10 +128,7 @@ def cases_of(entry: OnCasing) -> list[CoatingCase]:
 
 
 def listed_case(entry: OnCasing) -> CoatingCase:
-    """Read one coating: ``casing, E, K`` with ``theta`` or ``friction``, or ``casing, coating, friction``.
-
-    Each may have keys of `OWN` as well.
-    """
+    """Read one coating, of one value each, from what has the keys of an entry of ``coatings``."""
     return _case(entry.casing, _values(entry))
 
 
@@ -198,10 +192,7 @@ def young_moduli(config: Config) -> list[float]:
 
 
 def element_law(config: Config) -> ElementLaw:
-    """Describe the law of the elements that the config names, by default plasticity with linear hardening.
-
-    Raises `ValueError` as `bladerub.contact.laws.element_law`.
-    """
+    """Describe the law that the config names; raises `ValueError` as `bladerub.contact.laws.element_law`."""
     return laws.element_law(config.contact.plugged("law"))
 
 

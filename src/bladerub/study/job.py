@@ -139,11 +139,9 @@ class _Job:
         return longer_run(self.config, run) if grows else None
 
     def longer_of(self, run: PlannedRun, stored: StoredRun) -> PlannedRun | None:
-        """Plan the longer run of one that is done."""
         return self.longer(run, stored.data["revolution_amplitude"], stored.attributes["status"])
 
     def entry(self, run: PlannedRun) -> Entry:
-        """Return the entry of a run in the store."""
         return Entry(self.folder / run.file, run.key(self.blade_digest), MAPPED)
 
     def complete(self, runs: Sequence[PlannedRun]) -> None:

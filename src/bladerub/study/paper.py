@@ -16,8 +16,7 @@ STRAIGHT = CoatingCase(CASING, 2.0, 0.5, THETA)  # Fig. 15
 TILTED = CoatingCase(CASING, 2.0, 0.5, 0.15)  # Fig. 16
 RIGID = CoatingCase.rigid(CASING, friction=0.0)  # direct contact with the casing
 
-ORDERS = (4, 6)
-"""Engine orders of the paper's peaks: Y4, f4, Y6 and f6."""
+ORDERS = (4, 6)  # engine orders of the paper's peaks: Y4, f4, Y6 and f6
 
 HISTORIES = {
     (case, f_omega) for case in (STRAIGHT, TILTED) for f_omega in (TILTED_SPEED, STRAIGHT_SPEED, 0.206)
@@ -28,14 +27,7 @@ NEAR = 0.025
 """How far a speed may lie from the paper's, normalised: about a line's width in its maps, and the C1 of
 another blade."""
 
-FIVE_LOBES = ((0.0, 0.08), (0.24, 0.34))
-"""Speeds between which five lobes are worn (Fig. 6)."""
-
-TEN_LOBES, FOUR_LOBES = 0.1, 0.38
-"""Speeds of ten and of four worn lobes (Figs. 6 and 7)."""
-
-SIGNIFICANT = 0.1
-"""Share of the greatest value from which on a value still shows in a plot."""
-
-HARDLY = {"amplitude": 0.2, "f_peak": 0.01}
-"""Differences that count as hardly any: of Y relative, of f normalised."""
+FIVE_LOBES = ((0.0, 0.08), (0.24, 0.34))  # speeds between which five lobes are worn (Fig. 6)
+TEN_LOBES, FOUR_LOBES = 0.1, 0.38  # speeds of ten and of four worn lobes (Figs. 6 and 7)
+SIGNIFICANT = 0.1  # share of the greatest value from which on a value still shows in a plot
+HARDLY = {"amplitude": 0.2, "f_peak": 0.01}  # differences that are hardly any: of Y relative, of f normalised

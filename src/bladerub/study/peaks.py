@@ -43,10 +43,7 @@ def crossing_speed(coating: Response, order: float) -> float:
 
 
 def speed_window(coating: Response, order: float, settings: Peaks) -> tuple[float, float]:
-    """Lowest and highest speed between which the peak of an engine order is sought, normalised.
-
-    NaN as `crossing_speed`.
-    """
+    """Lowest and highest speed between which a peak is sought, normalised; NaN as `crossing_speed`."""
     low, high = settings.speed_window
     crossing = crossing_speed(coating, order)
     return low * crossing, high * crossing

@@ -17,10 +17,7 @@ _LOWEST_ORDER = 0.5
 
 
 def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, float]:
-    """Return order and height (m) of the largest amplitude of a spectrum (m,) from order 0.5 up.
-
-    Both are NaN when the spectrum is.
-    """
+    """Return order and height (m) of the largest amplitude of a spectrum (m,) from order 0.5 up, or NaN."""
     vibration = np.where(order >= _LOWEST_ORDER, amplitude, 0.0)
     index = np.argmax(vibration)
     if np.isnan(vibration[index]):

@@ -1,7 +1,4 @@
-"""Coatings with values of their own (`bladerub.study.grid.OWN`) in tables: the column ``variant``.
-
-A table has the column only if one of its coatings is a variant.
-"""
+"""The column ``variant`` of tables, if a coating has values of its own (`bladerub.study.grid.OWN`)."""
 
 from collections.abc import Sequence
 from dataclasses import asdict

@@ -27,10 +27,7 @@ _log = logging.getLogger(__name__)
 
 
 def judge(evidence: Evidence, claims: Iterable[Claim] = CLAIMS) -> pd.DataFrame:
-    """Measure those of `claims` that the `evidence` allows: a row each, with `COLUMNS`.
-
-    What is left out is logged as a warning.
-    """
+    """Measure those `claims` that the `evidence` allows, a row each with `COLUMNS`; log the others."""
     rows = []
     for claim in claims:
         try:

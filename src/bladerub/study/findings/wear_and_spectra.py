@@ -1,7 +1,4 @@
-"""Claims C1 to C5: frequencies of the reduced model, and over the speed worn lobes, wear and spectra.
-
-They are those of Figs. 2 and 6 to 9.
-"""
+"""Claims C1 to C5 (Figs. 2 and 6 to 9): frequencies, and over the speed worn lobes, wear and spectra."""
 
 from collections.abc import Sequence
 
