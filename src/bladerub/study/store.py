@@ -159,7 +159,7 @@ def read_run(
     Raises `OSError` if the file is missing, damaged or not a run; the message names it.
     """
     data, attributes = hdf5.read(path, only, attribute_names and attribute_names | {"run_key"})
-    return _checked(path, data, attributes, only or MAPPED)
+    return _checked(path, StoredRun(attributes, data), only or MAPPED)
 
 
 def read_runs(path: str | Path) -> dict[str, StoredRun]:
@@ -170,21 +170,15 @@ def read_runs(path: str | Path) -> dict[str, StoredRun]:
     for prefix in sorted(prefixes, key=len, reverse=True):  # the empty one takes what the others leave
         parts = [
             {name.removeprefix(prefix): values.pop(name) for name in list(values) if name.startswith(prefix)}
-            for values in (data, attributes)
+            for values in (attributes, data)
         ]
-        runs[prefix] = _checked(path, *parts, MAPPED, prefix)
+        runs[prefix] = _checked(path, StoredRun(*parts), MAPPED, prefix)
     return runs
 
 
-def _checked(
-    path: str | Path,
-    data: dict[str, np.ndarray],
-    attributes: dict[str, Any],
-    names: Set[str],
-    prefix: str = "",
-) -> StoredRun:
-    if missing := names - data.keys() | {"run_key"} - attributes.keys():
+def _checked(path: str | Path, run: StoredRun, names: Set[str], prefix: str = "") -> StoredRun:
+    if missing := names - run.data.keys() | {"run_key"} - run.attributes.keys():
         listed = ", ".join(sorted(prefix + name for name in missing))
         raise DamagedFile(f"{path}: not a run, {listed} missing")
-    data.pop("node", None)  # the numbers of the nodes, which `joined` adds
-    return StoredRun(attributes, data)
+    run.data.pop("node", None)  # the numbers of the nodes, which `joined` adds
+    return run

@@ -16,18 +16,6 @@ def test_claims_come_by_number_and_part_whatever_the_order_of_their_registration
     assert [each.id for each in in_order()] == ["B3a", "C2", "C9e", "C10a", "C10b"]
 
 
-def test_one_function_measures_several_claims_with_the_arguments_of_each(registered):
-    @claim("C1a", "first", 4, "Fig. 1")
-    @claim("C1b", "second", 6, "Fig. 2")
-    def measure(evidence, order, figure):
-        return evidence, order, figure
-
-    assert [(each.statement, each.measure("evidence")) for each in in_order()] == [
-        ("first", ("evidence", 4, "Fig. 1")),
-        ("second", ("evidence", 6, "Fig. 2")),
-    ]
-
-
 @pytest.mark.parametrize("id_", ["C1a", "", "C4ab", "c4a"])
 def test_an_id_is_taken_once_and_of_one_form(registered, id_):
     claim("C1a", "statement")(lambda evidence: None)
