@@ -21,7 +21,4 @@ def table(config: Config, maps: Iterable[CoatingMap]) -> pd.DataFrame:
     for coating in maps:
         settings = peak_settings(config, coating.case.casing)
         rows += [peaks.row(coating, order, settings) for order in settings.orders]
-    coating_peaks = pd.DataFrame(rows)
-    return with_variant(
-        coating_peaks, [*peaks.COLUMNS, *(["reason"] if coating_peaks["reason"].any() else [])]
-    )
+    return with_variant(pd.DataFrame(rows), peaks.COLUMNS, "reason")

@@ -8,9 +8,9 @@ import pandas as pd
 from bladerub.study.grid import CoatingCase
 
 
-def with_variant(table: pd.DataFrame, columns: Sequence[str]) -> pd.DataFrame:
-    """Return these columns of `table`, and ``variant`` if one of its rows is of a variant."""
-    return table[[*columns, *(["variant"] if table["variant"].any() else [])]]
+def with_variant(table: pd.DataFrame, columns: Sequence[str], *further: str) -> pd.DataFrame:
+    """Return these columns of `table`, and of the `further` ones and ``variant`` those that are not empty."""
+    return table[[*columns, *(name for name in (*further, "variant") if table[name].any())]]
 
 
 def plain(table: pd.DataFrame) -> pd.DataFrame:
