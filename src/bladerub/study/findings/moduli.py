@@ -21,15 +21,11 @@ def greatest(evidence: Evidence, order: int, figure: str) -> Finding:
     ranked = _with_critical(evidence, order).stack().dropna().sort_values(ascending=False)
     relative = ratio(ranked, ranked.iloc[0], f"Y{order}")
     critical = relative[paper.CRITICAL_K, paper.CRITICAL_E]
+    margin = float(critical - relative.drop((paper.CRITICAL_K, paper.CRITICAL_E)).max())
     first = [f"({e:g}, {k:g}) at {height:.2f}" for (k, e), height in relative.iloc[:3].items()]
-    return Finding(
-        claim=f"Y{order} is greatest at (E, K) = (1.1, 0.5) of {ranked.size} cells: first three ({figure})",
-        paper="(1.1, 0.5)",
-        measured=f"{', '.join(first)}; (1.1, 0.5) at {critical:.2f}",
-        unit="1",
-        holds=above(critical, 1.0, 0.9)[0],
-        margin=float(critical - relative.drop((paper.CRITICAL_K, paper.CRITICAL_E)).max()),
-    )
+    measured = f"{', '.join(first)}; (1.1, 0.5) at {critical:.2f}"
+    text = f"Y{order} is greatest at (E, K) = (1.1, 0.5) of {ranked.size} cells: first three ({figure})"
+    return Finding(text, "(1.1, 0.5)", measured, "1", above(critical, 1.0, 0.9)[0], margin)
 
 
 @claim("C6b", f"for any K, Y4 is highest at E = 1.1 ({_SECTION}, Fig. 11)")
@@ -162,14 +158,10 @@ def stiff_is_rigid(evidence: Evidence) -> Finding:
         for (order, column), offset in peaks.items()
     ]
     softer_one = "none softer is nearer" if nearest else f"E = {softer.idxmin():g} is nearer"
-    return Finding(
-        claim=f"above E = 20 contact is as with the rigid casing: offset at E = {distance.index[-1]:g}",
-        paper="near 0",
-        measured=f"{', '.join(offsets)}; {softer_one}",
-        unit="1",
-        holds=YES if close and nearest else PARTLY if close or nearest else NO,
-        margin=float(min(1.0, softer.min()) - stiffest),
-    )
+    measured = f"{', '.join(offsets)}; {softer_one}"
+    holds = YES if close and nearest else PARTLY if close or nearest else NO
+    text = f"above E = 20 contact is as with the rigid casing: offset at E = {distance.index[-1]:g}"
+    return Finding(text, "near 0", measured, "1", holds, float(min(1.0, softer.min()) - stiffest))
 
 
 def _offset(evidence: Evidence, order: int, column: str) -> pd.Series:

@@ -147,15 +147,13 @@ def critical_is_higher(evidence: Evidence, order: int) -> Finding:
 def critical_all_orders(evidence: Evidence) -> Finding:
     """Share of the orders crossing C1 within the study whose peak there is a tenth of the highest."""
     coating, settings = evidence.map(CRITICAL), evidence.config.analysis.peaks
-    heights = np.array([peak(coating, order, settings).amplitude for order in _orders(coating)])
-    amplitudes = heights[np.isfinite(heights)]
+    amplitudes = np.array([peak(coating, order, settings).amplitude for order in _orders(coating)])
+    amplitudes = amplitudes[np.isfinite(amplitudes)]
     if amplitudes.size < 2:
         raise NotMeasurable(f"{CRITICAL.name}: fewer than two engine orders have a peak within its speeds")
     share = 100 * float(np.mean(ratio(amplitudes, amplitudes.max(), CRITICAL.name) >= SIGNIFICANT))
-    text = (
-        "E = 1.1: significant amplitude where each engine order crosses C1: "
-        f"share of {amplitudes.size} orders (Fig. 9)"
-    )
+    crossings = f"each engine order crosses C1: share of {amplitudes.size} orders"
+    text = f"E = 1.1: significant amplitude where {crossings} (Fig. 9)"
     return Finding(text, 100, share, "%", *above(share, 90, 60))
 
 
