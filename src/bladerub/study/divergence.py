@@ -42,10 +42,8 @@ def table(config: Config, maps: Iterable[CoatingMap]) -> pd.DataFrame:
 def verdicts(config: Config, coating: CoatingMap) -> list[Verdict]:
     """Judge every run of a coating, by its longer run if it has one."""
     runs = zip(coating.revolution_amplitude, coating.status, coating.confirmation_amplitude, strict=True)
-    return [
-        _judged(amplitude.tobytes(), str(status), config.analysis.divergence, longer.tobytes())
-        for amplitude, status, longer in runs
-    ]
+    settings = config.analysis.divergence
+    return [_judged(run.tobytes(), str(status), settings, longer.tobytes()) for run, status, longer in runs]
 
 
 def in_a_word(verdict: Verdict) -> str:

@@ -22,8 +22,6 @@ from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
 from bladerub.study.solver import Solve, Solver, each_done, rows, solver_of
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_run, write_run
 
-_LISTED = {"status", "n_unconverged_steps", "energy_residual"}  # attributes of a run in its manifest
-
 
 @dataclass(frozen=True)
 class RunDone:
@@ -67,7 +65,8 @@ def compute_missing(
     waiting = f"another job is at work in {folder}: waiting for its end"
     with lock.held(folder / ".lock", lambda: report(waiting)):
         job.complete(plan.runs)
-        stored = [read_run(folder / run.file, {"revolution_amplitude"}, _LISTED) for run in plan.runs]
+        names = {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"}
+        stored = [read_run(folder / run.file, *names) for run in plan.runs]
         longer = list(map(job.longer_of, plan.runs, stored))
         job.complete([run for run in longer if run])
         return list(map(job.row, plan.runs, stored, longer))
