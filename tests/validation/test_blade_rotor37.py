@@ -20,9 +20,8 @@ from scipy.interpolate import PchipInterpolator
 
 from bladerub.blade.build import build
 from bladerub.contact.run import simulate
-from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import import_blade
-from bladerub.extras.blades.origin import Source
+from bladerub.extras.blades.settings import Source
 from bladerub.extras.rotor37 import direct, nlstep, numbers, reference
 from bladerub.extras.verification import impact
 from bladerub.extras.verification.compare import compare
@@ -40,7 +39,7 @@ def table():
 
 @pytest.fixture(scope="module")
 def imported():
-    return import_blade(Source(FILE, Frame("cm")), Mesh(chordwise=14, thickness=2, spanwise=20))
+    return import_blade(Source(file=str(FILE), unit="cm"), Mesh(chordwise=14, thickness=2, spanwise=20))
 
 
 def test_only_the_tips_of_the_round_edges_are_cut(imported):

@@ -12,7 +12,7 @@ from free_vibration import frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.extras.blades.importing import import_blade
-from bladerub.extras.blades.origin import Source
+from bladerub.extras.blades.settings import Source
 
 gmsh = pytest.importorskip("gmsh", reason="Gmsh (pip install gmsh) is not installed", exc_type=ImportError)
 
@@ -47,8 +47,9 @@ def test_eight_frequencies_are_those_of_hexahedra(paper_config, tmp_path):
     config = paper_config.blade
     shape = BladeShape.from_config(config)
     write_tetrahedra(tmp_path / "blade.msh", shape, 0.008)
-    imported = import_blade(Source(tmp_path / "blade.msh", root_set="root", tip_set="tip"), config.mesh)
-    by_rule = import_blade(Source(tmp_path / "blade.msh"), config.mesh).blade.mesh
+    path = str(tmp_path / "blade.msh")
+    imported = import_blade(Source(file=path, root_set="root", tip_set="tip"), config.mesh)
+    by_rule = import_blade(Source(file=path), config.mesh).blade.mesh
     np.testing.assert_array_equal(by_rule.root, imported.blade.mesh.root)
     np.testing.assert_array_equal(by_rule.tip, imported.blade.mesh.tip)
     blades = (imported.blade.mesh, BladeMesh.from_shape(shape, config.mesh))

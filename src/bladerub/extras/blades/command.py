@@ -13,9 +13,8 @@ from bladerub.cli import inputs
 from bladerub.config import read as configuration
 from bladerub.config.keys import key_of
 from bladerub.config.problems import problems
-from bladerub.extras.blades import origin, section_table, settings
+from bladerub.extras.blades import deck, origin, section_table, settings
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.origin import MatrixSource, Source
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import base_config, study_folder
 
@@ -59,17 +58,17 @@ def add_to(commands: Any) -> None:
 def import_blade(options: argparse.Namespace) -> None:
     """Read and reduce the blade that the command line names, and print its properties."""
     path = Path(os.path.realpath(options.file))  # Path.resolve fails where links form a circle
-    if not path.is_dir():
+    kind = "matrices" if path.is_dir() else "file"
+    if kind == "file":
         _refuse_at_once(path)
     config = inputs.read_config(options)
-    given = {name: getattr(options, name) for name in settings.Source.model_fields if name not in _PLACES}
-    option_values = {name: value for name, value in given.items() if value is not None}
-    kind = "matrices" if path.is_dir() else "file"
     folder = study_folder()
     entry_path = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
-    source_settings = config.blade.plain().get("source", {})
-    source_settings = {name: value for name, value in source_settings.items() if name not in _PLACES}
-    entry = {kind: str(entry_path)} | asdict(Frame()) | source_settings | option_values
+    in_config = config.blade.plain().get("source", {})
+    values = {name: getattr(options, name, None) for name in settings.Source.model_fields}
+    values = in_config | {name: value for name, value in values.items() if value is not None}
+    entry = {kind: str(entry_path)} | asdict(Frame())
+    entry |= {name: value for name, value in values.items() if name not in _PLACES}
 
     nominal = config.figures.nominal_speed if options.rpm is None else options.rpm
     figure_settings = config.figures.plain() | ({} if options.rpm is None else {"nominal_speed": nominal})
@@ -78,28 +77,26 @@ def import_blade(options: argparse.Namespace) -> None:
         raise BadInput(f"--{name.replace('nominal_speed', 'rpm').replace('_', '-')} {wrong}")
     config = config.replaced("blade.source", settings.Source.model_construct(**entry))
     with inputs.refused(ValueError):
-        source = origin.read(config.blade.source)
+        origin.check(config.blade.source)
 
     from bladerub.extras.blades.similarity import contact_scale, tip_stiffness
 
     with inputs.refused(ValueError):
-        if isinstance(source, MatrixSource):
-            (figures, reduced), rows = _read_matrices(source, config, nominal), _matrix_rows
-        else:
-            (figures, reduced), rows = _read_mesh(source, config, nominal), _mesh_rows
-    scale = contact_scale(reduced)
+        figures, reduced = (_read_matrices if kind == "matrices" else _read_mesh)(config, nominal)
     figures["tip_stiffness"] = tip_stiffness(reduced)
     study = configuration.read(base_config())
-    blade_settings = {} if isinstance(source, MatrixSource) else {"material": figures["material"]}
-    mesh = _changed(config.blade.mesh, study.blade.mesh) if "sections" in figures else {}
-    blade_settings |= {"mesh": mesh} if mesh else {}
-    reduction = _changed(config.reduction, study.reduction)
-    drawn = {} if nominal is None else {"nominal_speed": nominal}
-    figures["config"] = {
-        "blade": {"length": reduced.length, "source": entry} | blade_settings,
-        "contact": {"scale": {name: float(f"{factor:.6g}") for name, factor in scale.items()}},
-    } | {name: changes for name, changes in (("reduction", reduction), ("figures", drawn)) if changes}
-    inputs.show(options, figures, lambda figures: _in_words(rows(figures), figures))
+    blade = {"length": reduced.length, "source": entry}
+    if "material" in figures:
+        blade["material"] = figures["material"]
+    if "sections" in figures and (mesh := _changed(config.blade.mesh, study.blade.mesh)):
+        blade["mesh"] = mesh
+    scale = {name: float(f"{factor:.6g}") for name, factor in contact_scale(reduced).items()}
+    figures["config"] = {"blade": blade, "contact": {"scale": scale}}
+    if reduction := _changed(config.reduction, study.reduction):
+        figures["config"]["reduction"] = reduction
+    if nominal is not None:
+        figures["config"]["figures"] = {"nominal_speed": nominal}
+    inputs.show(options, figures, _in_words)
 
 
 def _refuse_at_once(path: Path) -> None:
@@ -116,20 +113,18 @@ def _changed(group: "Section", of_study: "Section") -> dict[str, Any]:
     return {name: value for name, value in group.plain().items() if value != study_values.get(name)}
 
 
-def _read_mesh(
-    source: Source, config: "Config", nominal: float | None
-) -> "tuple[dict[str, Any], ReducedBlade]":
-    """Import and reduce the mesh of `source`; return the figures and the reduced blade."""
-    # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
-    speeds = max(_FEWEST_SPEEDS, config.reduction.accuracy_speeds)
-
+def _read_mesh(config: "Config", nominal: float | None) -> "tuple[dict[str, Any], ReducedBlade]":
+    """Import and reduce the mesh of `config`; return the figures and the reduced blade."""
     from bladerub.blade.build import reduce_meshed
     from bladerub.blade.model import n_interface
     from bladerub.extras.blades import importing
     from bladerub.extras.blades.kept import keep
     from bladerub.extras.blades.report import mesh_report
 
-    config, doubt = _take_material(source, config.replaced("reduction.accuracy_speeds", speeds))
+    # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
+    speeds = max(_FEWEST_SPEEDS, config.reduction.accuracy_speeds)
+    config, doubt = _take_material(config.replaced("reduction.accuracy_speeds", speeds))
+    source, material = config.blade.source, config.blade.material
     imported = importing.import_blade(source, config.blade.mesh, n_interface(config))
     if sys.stderr.isatty():  # a fine mesh takes minutes
         nodes = len(imported.blade.mesh.mesh.points)
@@ -137,20 +132,17 @@ def _read_mesh(
     config = config.replaced("blade.length", round(imported.blade.length, 6))
     built = reduce_meshed(imported.blade, config)
     keep(built, config)
-    material = config.blade.material
     figures = mesh_report(source, imported, built, material, nominal) | {"material": material.plain()}
     figures["warnings"] = [*filter(None, [doubt]), *figures["warnings"]]
     return figures, built.reduced
 
 
-def _take_material(source: Source, config: "Config") -> "tuple[Config, str | None]":
+def _take_material(config: "Config") -> "tuple[Config, str | None]":
     """Put the material of a deck into `config` in place of the study's; return what is to be said as well."""
-    from bladerub.extras.blades import deck_material
-
-    in_config = config.blade.material
+    in_config, source = config.blade.material, config.blade.source
     used = f"the material of the config is used, {_of_material(in_config.plain())}"
     try:
-        in_file = None if source.is_table else deck_material.read(source.file, source.frame.unit)
+        in_file = deck.material(origin.path(source), origin.frame(source).unit)
     except ValueError as error:
         return config, f"{used}; not that of the file: {error}"
     if in_file in (None, in_config):
@@ -164,26 +156,28 @@ def _of_material(material: dict[str, float]) -> str:
     return "{young_modulus:g} Pa, {poisson_ratio:g}, {density:g} kg/m³".format(**material)
 
 
-def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
-    """Describe the figures of a mesh or of sections, by the name of each."""
-    from bladerub.blade.accuracy import percent
+def _read_matrices(config: "Config", nominal: float | None) -> "tuple[dict[str, Any], ReducedBlade]":
+    """Import and reduce the matrices of `config`; return the figures and the reduced blade."""
+    from bladerub.blade.build import reduce_given
+    from bladerub.extras.blades.kept import keep
+    from bladerub.extras.blades.matrices import import_matrices
+    from bladerub.extras.blades.report import matrix_report
 
-    eq2, rom = (max(figures[name][:6]) for name in ("error_eq2", "error_reduced_model"))
+    imported = import_matrices(config.blade.source, config.reduction)
+    config = config.replaced("blade.length", round(imported.blade.layout.length, 6))
+    built = reduce_given(imported.blade, config)
+    keep(built, config)
+    return matrix_report(config.blade.source, imported, built, nominal), built.reduced
+
+
+def _of_mesh(figures: dict[str, Any]) -> dict[str, str]:
+    """Describe what a mesh or sections alone have, by name."""
     rows = {
-        "mesh": f"{figures['elements']} {figures['element']}, {figures['nodes']} nodes, "
-        f"{figures['unknowns']} unknowns, {figures['elements_root_to_tip']} elements from root to tip",
-        **_extents(figures),
-        "length": f"{1e3 * figures['length']:.4g} mm, chord at the tip {1e3 * figures['tip_chord']:.4g} mm, "
-        f"cone there {round(figures['tip_cone_degrees'], 3) + 0.0:g} degrees",
         "root and tip": f"{figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up to "
         f"{1e3 * figures['interface_offset']:.3g} mm from their even places on the camber line",
         "volume and mass": f"{1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
         "material": _of_material(figures["material"]),
         "worst Jacobian": f"{figures['worst_jacobian']:.3g} (smallest over largest in an element)",
-        "first frequency": f"{_first_frequency(figures)}, where rotation moves the blade by "
-        f"{1e3 * figures['centrifugal_displacement']:.3g} mm",
-        "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
-        f"{percent(eq2)} % off, with the reduction {percent(rom)} %",
     }
     if "sections" in figures:
         hub, *_, tip = figures["sections"]
@@ -197,92 +191,62 @@ def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
     return rows
 
 
-def _read_matrices(
-    source: MatrixSource, config: "Config", nominal: float | None
-) -> "tuple[dict[str, Any], ReducedBlade]":
-    """Import and reduce the matrices of `source`; return the figures and the reduced blade."""
-    from bladerub.blade.build import reduce_given
-    from bladerub.extras.blades.kept import keep
-    from bladerub.extras.blades.matrices import import_matrices
-    from bladerub.extras.blades.report import matrix_report
-
-    reduction = config.reduction
-    imported = import_matrices(
-        source, reduction.f_omega_max, reduction.accuracy_modes, reduction.modes_per_speed
-    )
-    config = config.replaced("blade.length", round(imported.blade.layout.length, 6))
-    built = reduce_given(imported.blade, config)
-    keep(built, config)
-    return matrix_report(source, imported, built, nominal), built.reduced
-
-
-def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
-    """Describe the figures, by the name of each."""
-    from bladerub.blade.accuracy import percent
-
-    measured = "" if figures["length_is_measured"] else " that its nodes reach over"
+def _of_matrices(figures: dict[str, Any]) -> dict[str, str]:
+    """Describe what matrices alone have, by name."""
+    places = [", ".join(f"{1e3 * x:.4g}" for x in figures["interface"][end]) for end in (0, -1)]
     omission = (
         "" if figures["mass_is_whole"] else " without that of the clamped nodes, whose rows are not there"
     )
-    first, last = (figures["interface"][end] for end in (0, -1))
-    rom = max(figures["error_reduced_model"][:6])
-    if figures["error_eq2"] is None:
-        eq2 = "eq. (2) is exact at the speeds of the files"
-    else:
-        eq2 = f"eq. (2) is up to {percent(max(figures['error_eq2'][:6]))} % off"
     return {
-        "matrices": f"{figures['nodes']} nodes, {figures['unknowns']} unknowns",
-        **_extents(figures),
-        "length": f"{1e3 * figures['length']:.4g} mm{measured}, cone at the tip "
-        f"{figures['tip_cone_degrees']:.4g} degrees",
         "clamped and tip": f"{figures['clamped_nodes']} and {figures['tip_nodes']} nodes",
-        "interface": f"from {_place(first)} to {_place(last)} mm, leading to trailing edge",
+        "interface": "from ({}) to ({}) mm, leading to trailing edge".format(*places),
         "mass": f"{figures['mass']:.4g} kg{omission}",
         "speeds": f"f_omega = {', '.join(f'{speed:g}' for speed in figures['speeds'])}; the highest is "
         f"{figures['omega_max']:.6g} rad/s",
-        "first frequency": _first_frequency(figures),
-        "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes {eq2}, with the "
-        f"reduction {percent(rom)} %",
     }
 
 
-def _extents(figures: dict[str, Any]) -> dict[str, str]:
-    """Describe how far the blade extends, by the name of each direction."""
-    return {
-        name: f"{1e3 * low:.4g} to {1e3 * high:.4g} mm" for name, (low, high) in figures["extents"].items()
-    }
+def _in_words(figures: dict[str, Any]) -> str:
+    from bladerub.blade.accuracy import percent
 
-
-def _first_frequency(figures: dict[str, Any]) -> str:
-    """Describe the first frequency at rest and at the highest speed."""
-    return (
-        f"{figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
-        f"{figures['f_omega_max']:g}"
+    size, length = (
+        f"{figures['nodes']} nodes, {figures['unknowns']} unknowns",
+        f"{1e3 * figures['length']:.4g} mm",
     )
-
-
-def _place(point: list[float]) -> str:
-    return "(" + ", ".join(f"{1e3 * x:.4g}" for x in point) + ")"
-
-
-def _crossings(crossings: list[dict[str, Any]]) -> str:
-    """List the speeds at which engine orders cross the first mode, from the fastest."""
-    if not crossings:
-        return "of mode 1: none within reduction.f_omega_max"
-    return "of mode 1, 1/min: " + ", ".join(
-        f"eo({crossing['order']}) {crossing['rpm']:.0f}" for crossing in crossings
+    if "elements" in figures:
+        rows = {
+            "mesh": f"{figures['elements']} {figures['element']}, {size}, {figures['elements_root_to_tip']} "
+            "elements from root to tip"
+        }
+        length += f", chord at the tip {1e3 * figures['tip_chord']:.4g} mm, cone there"
+        particular = _of_mesh(figures)
+        moved = f", where rotation moves the blade by {1e3 * figures['centrifugal_displacement']:.3g} mm"
+    else:
+        rows = {"matrices": size}
+        length += f"{'' if figures['length_is_measured'] else ' that its nodes reach over'}, cone at the tip"
+        particular, moved = _of_matrices(figures), ""
+    extents = figures["extents"].items()
+    rows |= {name: f"{1e3 * low:.4g} to {1e3 * high:.4g} mm" for name, (low, high) in extents}
+    rows |= {"length": f"{length} {round(figures['tip_cone_degrees'], 3) + 0.0:g} degrees"} | particular
+    law = (
+        "eq. (2) is exact at the speeds of the files"
+        if figures["error_eq2"] is None
+        else f"eq. (2) is up to {percent(max(figures['error_eq2'][:6]))} % off"
     )
-
-
-def _in_words(rows: dict[str, str], figures: dict[str, Any]) -> str:
-    stagger = figures["tip_stagger_degrees"]
+    stagger, lean = figures["tip_stagger_degrees"], figures["tip_lean"]
+    crossings = [f"eo({crossing['order']}) {crossing['rpm']:.0f}" for crossing in figures["crossings"]]
     rows |= {
+        "first frequency": f"{figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
+        f"{figures['f_omega_max']:g}{moved}",
+        "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes {law}, with the "
+        f"reduction {percent(max(figures['error_reduced_model'][:6]))} %",
         "stagger at the tip": f"{abs(stagger):.4g} degrees, the leading edge "
         f"{'ahead' if stagger >= 0 else 'behind'} in rotation",
-        "first mode": "u_r/u_t at the tip {:.3f} at the leading edge, {:.3f} at the trailing edge".format(
-            *(figures["tip_lean"][end] for end in (0, -1))
-        ),
-        "crossings": _crossings(figures["crossings"]),
+        "first mode": f"u_r/u_t at the tip {lean[0]:.3f} at the leading edge, {lean[-1]:.3f} at the trailing "
+        "edge",
+        "crossings": "of mode 1, 1/min: " + ", ".join(crossings)
+        if crossings
+        else "of mode 1: none within reduction.f_omega_max",
         "tip stiffness": f"{figures['tip_stiffness']:.4g} N/m, static",
     }
     if figures["nominal_speed"]:

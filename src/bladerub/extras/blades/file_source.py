@@ -12,6 +12,7 @@ from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.settings import Source
 from bladerub.io.checksum import file_checksum
 from bladerub.io.errors import format_value
+from bladerub.io.folders import study_folder
 from bladerub.settings.blade import Blade
 from bladerub.settings.study import Config
 
@@ -22,51 +23,46 @@ if TYPE_CHECKING:  # import the solver, which a plan does without
 
 def problems(config: Config) -> Iterator[str]:
     """Yield a line for each thing in `config` that cannot be; raises ValueError as `geometry.check_size`."""
-    blade = config.blade
+    source = config.blade.source
     try:
-        source = origin.read(blade.source)
+        origin.check(source)
     except ValueError as error:
         yield f"blade.source.{error}"
         return
-    if not source.file.is_file():
-        setting = f"blade.source.file = {format_value(blade.source.file)}"
-        yield f"{setting}: there is no such file ({source.file})"
+    setting, path = f"blade.source.file = {format_value(source.file)}", origin.path(source)
+    if not path.is_file():
+        yield f"{setting}: there is no such file ({path})"
     try:
-        files(blade.source)
+        files(source)
     except ValueError as error:
-        yield f"blade.source.file = {format_value(blade.source.file)}: {error}"
-    if source.is_table:
-        geometry.check_size(blade.mesh)
-        geometry.check_interface(blade.mesh, n_interface(config))
+        yield f"{setting}: {error}"
+    if origin.is_table(source):
+        geometry.check_size(config.blade.mesh)
+        geometry.check_interface(config.blade.mesh, n_interface(config))
 
 
 def recipe(blade: Blade) -> dict[str, Any]:
     """Reduce the block ``blade`` to what determines the blade, with the content of its file."""
-    source, values = origin.read(blade.source), blade.plain()
-    parts = ("material", "length", *(("mesh",) if source.is_table else ()))
+    source, values = blade.source, blade.plain()
+    parts = ("material", "length", *(("mesh",) if origin.is_table(source) else ()))
     settings = asdict(Frame()) | values["source"]  # what a config leaves out is not another blade
-    main, *included = [file_checksum(source.file.parent / name) for name in _names(source)]
+    main, *included = [file_checksum(study_folder() / path) for path in files(source)]
     content = [main, *included] if included else main
     return {name: values[name] for name in parts} | {"source": settings | {"file": content}}
 
 
 def files(source: Source) -> list[str]:
     """List the file of the block ``source`` and those that it includes; ValueError if one is missing."""
-    folder = os.path.dirname(source.file)
-    return [os.path.join(folder, name) for name in _names(origin.read(source))]
-
-
-def _names(source: origin.Source) -> list[str]:
-    """Name the file and those that it includes, relative to its folder."""
-    is_deck = source.file.suffix.lower() == ".inp" and source.file.is_file()
-    return [source.file.name, *(deck.included(source.file) if is_deck else ())]
+    path, folder = origin.path(source), os.path.dirname(source.file)
+    included = deck.included(path) if path.suffix.lower() == ".inp" and path.is_file() else ()
+    return [os.path.join(folder, name) for name in (path.name, *included)]
 
 
 def meshed(blade: Blade, n_nodes: int) -> "MeshedBlade":
     """Read the blade, and mesh a table; BadInput if it cannot be used, or is not of the length in `blade`."""
     from bladerub.extras.blades.importing import check_length, import_blade
 
-    imported = import_blade(origin.read(blade.source), blade.mesh, n_nodes).blade
+    imported = import_blade(blade.source, blade.mesh, n_nodes).blade
     check_length(blade.length, imported.length, blade.source.file)
     return imported
 

@@ -10,9 +10,10 @@ from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
 from bladerub.blade.model import N_INTERFACE
 from bladerub.blade.surface import EDGES, boundary_faces, normals
-from bladerub.extras.blades import element_quality, mesh_file, section_blade, tip
-from bladerub.extras.blades.origin import MatrixSource, Source
+from bladerub.extras.blades import element_quality, mesh_file, origin, section_blade, tip
+from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.section_profile import Profile
+from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Mesh
 
@@ -40,37 +41,35 @@ def import_blade(source: Source, counts: Mesh, n_interface: int = N_INTERFACE) -
 
     The tip gets `n_interface` interface nodes.
     """
-    try:
-        if source.is_table:
+    with origin.naming(origin.path(source)):
+        if origin.is_table(source):
             return _import_sections(source, counts, n_interface)
         return _import_mesh(source, n_interface)
-    except ValueError as error:
-        raise BadInput(f"{source.file}: {error}") from error
 
 
 def _import_mesh(source: Source, n_interface: int) -> Imported:
-    content = mesh_file.read(source.file)
+    content, frame = mesh_file.read(origin.path(source)), origin.frame(source)
     if 3 * len(content.points) > MOST_UNKNOWNS:
         raise ValueError(f"has {3 * len(content.points)} unknowns; must be {MOST_UNKNOWNS} or fewer")
     element_quality.check_joined(content.cells)
     element_quality.check_nodes(content.points, content.cells)
-    mesh, origin = solid_mesh(source.frame.metres(content.points), content.cells)
+    mesh, places = solid_mesh(frame.metres(content.points), content.cells)
     ratio, volume = element_quality.jacobians(mesh)
     if np.hypot(mesh.points[:, 1], mesh.points[:, 2]).min() <= 0:
-        raise ValueError(f"a node lies on the engine axis: is it rotation = {source.frame.rotation}?")
+        raise ValueError(f"a node lies on the engine axis: is it rotation = {frame.rotation}?")
     faces = boundary_faces(mesh.cells)
-    root = _nodes(content, mesh.points, faces, origin, source.root_set, is_tip=False)
-    tip_nodes = _nodes(content, mesh.points, faces, origin, source.tip_set, is_tip=True)
+    root = _nodes(content, mesh.points, faces, places, source.root_set, is_tip=False)
+    tip_nodes = _nodes(content, mesh.points, faces, places, source.tip_set, is_tip=True)
     if np.isin(tip_nodes, root).any():
         raise ValueError("root and tip share nodes; name other node sets")
     tip_faces = faces[np.isin(faces, tip_nodes).all(axis=1)]
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
-    interface = tip.interface(mesh.points, tip_faces, source.frame.downstream_x, n_interface)
+    interface = tip.interface(mesh.points, tip_faces, frame.downstream_x, n_interface)
     return Imported(
-        measured(BladeMesh(mesh, root, tip_nodes, interface.nodes), source),
+        measured(BladeMesh(mesh, root, tip_nodes, interface.nodes), frame, source.tip_cone),
         is_raised=content.is_raised,
-        n_unused=len(content.points) - origin.size,
+        n_unused=len(content.points) - places.size,
         node_sets={name: nodes.size for name, nodes in content.node_sets.items()},
         jacobian_ratio=ratio,
         volume=volume,
@@ -79,7 +78,7 @@ def _import_mesh(source: Source, n_interface: int) -> Imported:
     )
 
 
-def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np.ndarray:
+def _nodes(content, points, faces, places, name: str | None, is_tip: bool) -> np.ndarray:
     """Nodes of the mesh in the set `name` of the file, or found by the surface."""
     part = "tip" if is_tip else "root"
     try:
@@ -88,7 +87,7 @@ def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np
         members = _with_middles(content, _named(content, name))
     except ValueError as error:
         raise ValueError(f"{part} not found: {error}") from error
-    nodes = np.flatnonzero(np.isin(origin, members))
+    nodes = np.flatnonzero(np.isin(places, members))
     if not nodes.size:
         raise ValueError(f'{part} not found: no node of the set "{name}" is in an element')
     return nodes
@@ -152,24 +151,25 @@ def _import_sections(source: Source, counts: Mesh, n_interface: int) -> Imported
     evenly = shape.points(np.linspace(0, 1, mesh.interface.size), 0.5, 1.0).T
     offset = np.linalg.norm(mesh.mesh.points[mesh.interface] - evenly, axis=1).max()
     chord = profiles[-1].chord
-    return Imported(measured(mesh, source), ratio, volume, chord, float(offset), sections=profiles)
+    blade = measured(mesh, origin.frame(source), source.tip_cone)
+    return Imported(blade, ratio, volume, chord, float(offset), sections=profiles)
 
 
-def measured(mesh: BladeMesh, source: Source | MatrixSource) -> MeshedBlade:
-    """Measure the cone of the tip and the length of the blade, and check that the latter is that of a blade.
+def measured(mesh: BladeMesh, frame: Frame, tip_cone: float | None) -> MeshedBlade:
+    """Measure the length of the blade and, if it is not given in degrees, the cone of its tip.
 
-    The length is that from the clamped nodes to the tip or, where no node is clamped, the range of the radii.
+    A ValueError says if the length is none of a blade. It is that from the clamped nodes to the tip or, where no node is clamped, the range of the radii.
     """
     points = mesh.mesh.points
     radius = np.hypot(points[:, 1], points[:, 2])
-    tip_cone = tip.cone(points[mesh.tip], source.tip_cone, source.frame.downstream_x)
+    cone = tip.cone(points[mesh.tip], tip_cone, frame.downstream_x)
     lowest = radius[mesh.root].mean() if mesh.root.size else radius.min()
     length = float(radius[mesh.tip].mean() - lowest)
     if mesh.root.size:
         if length <= 0:
             raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
-        source.frame.check_length(length)
-    return MeshedBlade(mesh, tip_cone, length)
+        frame.check_length(length)
+    return MeshedBlade(mesh, cone, length)
 
 
 def check_length(length: float, measured: float, path: str | Path) -> None:

@@ -1,9 +1,6 @@
 """From mass and stiffness of another program to a blade that can be reduced."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from scipy import sparse
@@ -17,10 +14,13 @@ from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh, FreeCoordinates, MeshedBlade, NodeCloud
 from bladerub.blade.reduction import fit_speeds
 from bladerub.extras.blades import matrix_folder, origin, rigid_body
+from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import LENGTH_TOLERANCE, check_length, measured
 from bladerub.extras.blades.matrix_folder import FIT, MASS, NODES
-from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource
+from bladerub.extras.blades.origin import MATRIX_UNITS, naming
+from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput
+from bladerub.settings.blade import Reduction
 from bladerub.settings.study import Config
 
 _PENALTY = 1e4  # diagonal entry over the median, from which on a coordinate is held
@@ -47,55 +47,78 @@ class ImportedMatrices:
 
 
 @threadpool_limits.wrap(limits=1)
-def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) -> ImportedMatrices:
-    """Read the matrices of `source` and check that they are of a blade.
+def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
+    """Read the matrices of `source` and check that they are of a blade that can be reduced.
 
-    `f_max` is the normalised speed of ``stiffness_max``. There must be coordinates enough for `n_modes` modes
-    at rest and for `eta` modes with a clamped interface. A BadInput names the file and what is wrong in it.
+    There must be coordinates enough for the modes of the accuracy table at rest, and for those with a clamped
+    interface. A BadInput names the file and what is wrong in it.
     """
-    with _naming(source.folder):
-        names = matrix_folder.files(source.folder)
+    f_max, n_modes = reduction.f_omega_max, reduction.accuracy_modes
+    folder, frame = origin.path(source), origin.frame(source)
+    unit = MATRIX_UNITS[source.matrix_units or "SI"]
+    with naming(folder):
+        names = matrix_folder.files(folder)
         at_speeds = matrix_folder.speeds(names, fit_speeds(f_max))
-    with _naming(names["nodes"]):
+    with naming(names["nodes"]):
         nodes = matrix_folder.read_nodes(names["nodes"])
-        layout = _layout(nodes, source)
+        layout = _layout(nodes, frame, source.tip_cone)
         free = FreeCoordinates(len(nodes.points), nodes.clamped)
-        n_internal, n_required = free.free.size - 3 * nodes.interface.size, max(n_modes, eta)
+        n_internal = free.free.size - 3 * nodes.interface.size
+        n_required = max(n_modes, reduction.modes_per_speed)
         if n_internal <= n_required:
             raise ValueError(
                 f"has {n_internal} free coordinates off the interface; must have more than {n_required}, the "
                 "modes that are wanted"
             )
-    with _naming(names[MASS]):
+    with naming(names[MASS]):
         mass_of_all = matrix_folder.read_matrix(names[MASS])
-        mass = _of_free(mass_of_all, free, source)
+        mass = _of_free(mass_of_all, free, unit, frame.turn)
     stiffness = {}
     for f_omega, name in at_speeds.items():
-        with _naming(names[name]):
-            stiffness[f_omega] = _of_free(matrix_folder.read_matrix(names[name]), free, source)
+        with naming(names[name]):
+            stiffness[f_omega] = _of_free(matrix_folder.read_matrix(names[name]), free, unit, frame.turn)
     stiffness_rest, stiffness_half, stiffness_max = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
-    with _naming(names[MASS], names[FIT[0]]):
+
+    with naming(names[MASS], names[FIT[0]]):
         rigid_body.check_joined(mass, stiffness_rest)
-    with _naming(names[MASS]):
+    with naming(names[MASS]):
         check_definite(mass)
-    with _naming(names[FIT[0]]):
+    with naming(names[FIT[0]]):
         check_definite(stiffness_rest)
         frequency, modes = _modes(stiffness_rest, mass, n_modes)
         check_held(stiffness_rest, modes[:, 0])
-    _check_order(names, layout, free, mass, stiffness_rest, source.frame.turn)
+
+    # mass and stiffness at rest have the order of the nodes
+    numbers, points = free.free[::3] // 3, layout.mesh.mesh.points
+    rows, places = numbers + 1, points[numbers]
+    with naming(names[MASS]):
+        rigid_body.check_mass(mass, rows)
+    with naming(names["nodes"]):
+        rigid_body.check_places(stiffness_rest, places, rows, frame.turn)
+    with naming(names[FIT[0]]):
+        interface = np.searchsorted(numbers, layout.mesh.interface)
+        rigid_body.check_stiffness(stiffness_rest, places, rows, points[layout.mesh.root], interface)
+    with naming(names[MASS]):
+        rigid_body.check_same_nodes(mass, stiffness_rest, rows)
+
     frequencies = {0.0: frequency}
     for f_omega, name in list(at_speeds.items())[1:]:
-        with _naming(names[name]):
-            rigid_body.check_change(stiffness[f_omega], stiffness_rest, free.free[::3] // 3 + 1)
+        with naming(names[name]):
+            rigid_body.check_change(stiffness[f_omega], stiffness_rest, rows)
             check_definite(stiffness[f_omega])
             frequencies[f_omega], _ = _modes(stiffness[f_omega], mass, n_modes)
             if frequencies[f_omega][0] <= 0:  # so near to zero that few of Lanczos's steps do not show it
                 raise ValueError("is not positive definite: a mode of the blade is unstable at this speed")
-    _check_speed(source, f_max, frequency[0])
+    f_omega = (source.omega_max or 0.0) / (2 * np.pi * frequency[0])
+    if f_omega and abs(f_omega / f_max - 1) > OMEGA_TOLERANCE:
+        raise BadInput(
+            f"{folder}: omega_max = {source.omega_max:g} rad/s is {f_omega:.6g} of the blade's first "
+            f"frequency, {frequency[0]:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
+        )
     change = sparse.linalg.norm(stiffness_max - stiffness_rest)
     return ImportedMatrices(
         DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
-        MATRIX_UNITS[source.matrix_units] * _rigid_mass(mass_of_all),
+        unit * _rigid_mass(mass_of_all),
         nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
         _wave_speed(stiffness_rest, mass, layout, free),
         float(sparse.linalg.norm(stiffness_half - stiffness_rest) / change) if change else 0.0,
@@ -104,18 +127,15 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
 
 def of_length(config: Config) -> DiscreteBlade:
     """Import the matrices that `config` names; BadInput as `import_matrices`, or if it has another length."""
-    length, reduction = config.blade.length, config.reduction
-    source = origin.read(config.blade.source)
-    imported = import_matrices(
-        source, reduction.f_omega_max, reduction.accuracy_modes, reduction.modes_per_speed
-    )
+    length, folder = config.blade.length, origin.path(config.blade.source)
+    imported = import_matrices(config.blade.source, config.reduction)
     layout = imported.blade.layout
     tip_radius = np.hypot(*layout.mesh.mesh.points[layout.mesh.tip, 1:].T).mean()
     if imported.is_rooted:
-        check_length(length, layout.length, source.folder)
+        check_length(length, layout.length, folder)
     elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < tip_radius:
         raise BadInput(
-            f"blade.length = {length:g}: must be that of the blade in {source.folder}, whose nodes reach "
+            f"blade.length = {length:g}: must be that of the blade in {folder}, whose nodes reach "
             f"over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
         )
     return imported.blade
@@ -130,41 +150,9 @@ def _modes(
         raise ValueError(f"is singular ({error}); are the clamped nodes marked?") from error
 
 
-@contextmanager
-def _naming(*paths: Path) -> Iterator[None]:
-    """Add `paths` to the message of a ValueError."""
-    try:
-        yield
-    except ValueError as error:
-        raise BadInput(f"{' and '.join(map(str, paths))}: {error}") from error
-
-
-def _check_order(
-    names: dict[str, Path],
-    layout: MeshedBlade,
-    free: FreeCoordinates,
-    mass: sparse.csc_array,
-    stiffness_rest: sparse.csc_array,
-    turn: np.ndarray,
-) -> None:
-    """Check that mass and stiffness at rest have the order of the nodes."""
-    points, nodes = layout.mesh.mesh.points, free.free[::3] // 3
-    with _naming(names[MASS]):
-        rigid_body.check_mass(mass, nodes + 1)
-    with _naming(names["nodes"]):
-        rigid_body.check_places(stiffness_rest, points[nodes], nodes + 1, turn)
-    with _naming(names[FIT[0]]):
-        interface = np.searchsorted(nodes, layout.mesh.interface)
-        rigid_body.check_stiffness(
-            stiffness_rest, points[nodes], nodes + 1, points[layout.mesh.root], interface
-        )
-    with _naming(names[MASS]):
-        rigid_body.check_same_nodes(mass, stiffness_rest, nodes + 1)
-
-
-def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
+def _layout(nodes: matrix_folder.Nodes, frame: Frame, tip_cone: float | None) -> MeshedBlade:
     """Convert the nodes to the blade's frame, and check that the interface is that of a tip."""
-    points = source.frame.metres(nodes.points)
+    points = frame.metres(nodes.points)
     radius = np.hypot(points[:, 1], points[:, 2])
     ends = points[nodes.interface]
     if radius[nodes.interface].min() <= 0:
@@ -173,16 +161,19 @@ def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
     if len(twins):
         first, second = twins[0] + 1
         raise ValueError(f"interface nodes {first} and {second} are in one place")
-    if source.frame.downstream_x * (ends[-1, 0] - ends[0, 0]) <= 0:
+    if frame.downstream_x * (ends[-1, 0] - ends[0, 0]) <= 0:
         raise ValueError(
             f"interface node 1 is downstream of node {len(ends)}; must be at the leading edge: is downstream "
-            f"= {source.frame.downstream} the direction of the flow?"
+            f"= {frame.downstream} the direction of the flow?"
         )
     tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
-    return measured(BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface), source)
+    mesh = BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface)
+    return measured(mesh, frame, tip_cone)
 
 
-def _of_free(matrix: sparse.csc_array, free: FreeCoordinates, source: MatrixSource) -> sparse.csc_array:
+def _of_free(
+    matrix: sparse.csc_array, free: FreeCoordinates, unit: float, turn: np.ndarray
+) -> sparse.csc_array:
     """Rows and columns of the free coordinates in `matrix`, in the blade's axes and SI units."""
     n, n_all = free.free.size, 3 * free.n_nodes
     if matrix.shape[0] not in (n, n_all):
@@ -192,8 +183,8 @@ def _of_free(matrix: sparse.csc_array, free: FreeCoordinates, source: MatrixSour
         )
     if matrix.shape[0] > n:
         matrix = matrix[free.free][:, free.free]
-    rotation = sparse.kron(sparse.eye_array(n // 3), source.frame.turn, format="csc")
-    return sparse.csc_array(MATRIX_UNITS[source.matrix_units] * (rotation @ matrix @ rotation.T))
+    rotation = sparse.kron(sparse.eye_array(n // 3), turn, format="csc")
+    return sparse.csc_array(unit * (rotation @ matrix @ rotation.T))
 
 
 def _rigid_mass(mass: sparse.csc_array) -> float:
@@ -213,16 +204,6 @@ def _wave_speed(
     diagonal = stiffness.diagonal()
     stretched[diagonal > _PENALTY * np.median(diagonal)] = 0.0
     return float(np.sqrt(stretched @ (stiffness @ stretched) / _rigid_mass(mass)))
-
-
-def _check_speed(source: MatrixSource, f_max: float, f1_hz: float) -> None:
-    omega = 2 * np.pi * f1_hz * f_max
-    if source.omega_max is not None and abs(source.omega_max / omega - 1) > OMEGA_TOLERANCE:
-        f_omega = source.omega_max / (2 * np.pi * f1_hz)
-        raise BadInput(
-            f"{source.folder}: omega_max = {source.omega_max:g} rad/s is {f_omega:.6g} of the blade's first "
-            f"frequency, {f1_hz:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
-        )
 
 
 def check_definite(matrix: sparse.csc_array) -> None:

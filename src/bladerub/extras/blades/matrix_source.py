@@ -19,18 +19,16 @@ if TYPE_CHECKING:  # imports the solver, which a plan does without
 
 def problems(config: Config) -> Iterator[str]:
     """Yield a line for each thing in `config` that cannot be."""
-    from bladerub.extras.blades import matrix_folder
-
     source = config.blade.source
     try:
-        folder = origin.read(source).folder
+        origin.check(source)
     except ValueError as error:
         yield f"blade.source.{error}"
         return
     try:
-        matrix_folder.files(folder)
+        files(source)
     except ValueError as error:
-        yield f"blade.source.matrices = {format_value(source.matrices)}: {error} ({folder})"
+        yield f"blade.source.matrices = {format_value(source.matrices)}: {error} ({origin.path(source)})"
     if (count := config.reduction.fit_speeds) not in (None, 3):
         yield f"reduction.fit_speeds = {count}: must be 3 with blade.source.matrices"
 
@@ -39,7 +37,7 @@ def recipe(blade: Blade) -> dict[str, Any]:
     """Reduce the block ``blade`` to what determines the blade, with the content of its files."""
     from bladerub.extras.blades import matrix_folder
 
-    paths = matrix_folder.files(origin.read(blade.source).folder)
+    paths = matrix_folder.files(origin.path(blade.source))
     content = {name: file_checksum(path) for name, path in paths.items()}
     settings = asdict(Frame()) | blade.source.plain()  # what a config leaves out is not another blade
     return {"length": blade.length, "source": settings | {"matrices": content}}
@@ -49,7 +47,7 @@ def files(source: Source) -> list[str]:
     """List the files of the block ``source``; ValueError if one is missing."""
     from bladerub.extras.blades import matrix_folder
 
-    paths = matrix_folder.files(origin.read(source).folder)
+    paths = matrix_folder.files(origin.path(source))
     return [os.path.join(source.matrices, path.name) for path in paths.values()]
 
 

@@ -1,12 +1,14 @@
 """Where a blade comes from: the ``blade.source`` block of the config, and faults of its files."""
 
 import errno
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from bladerub.extras.blades.frame import Frame
-from bladerub.io.errors import is_refused
+from bladerub.io.errors import BadInput, is_refused
 from bladerub.io.folders import study_folder
 from bladerub.io.optional import package
 
@@ -21,64 +23,40 @@ As the two are equal, frequencies do not show when the wrong system is named.
 MESH_SUFFIXES = (".inp", ".msh", ".vtu")
 _BY_GMSH = {".unv": "-save", **dict.fromkeys((".stp", ".step", ".igs", ".iges", ".brep"), "-3 -order 2")}
 TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other files are meshes
+_OF_FRAME = tuple(entry.name for entry in fields(Frame))
+_OF_MESHES, _OF_TABLES = ("root_set", "tip_set"), ("angle_unit",)
+_KEYS = {"matrices": ("matrix_units", "omega_max"), "file": (*_OF_MESHES, *_OF_TABLES)}
 
 
-@dataclass(frozen=True)
-class Source:
-    """A mesh (`bladerub.extras.blades.mesh_file`) or table of sections that a blade comes from.
-
-    What is not given is found: the node sets by the direction of the surface, the cone by a fit to the tip.
-    Raises ValueError if something is given that does not apply to this kind of file.
-    """
-
-    file: Path
-    frame: Frame = field(default_factory=Frame)
-    root_set: str | None = None
-    tip_set: str | None = None
-    tip_cone: float | None = None  # half angle of the flow path at the tip, degrees, positive: it widens
-    angle_unit: str | None = None  # of a table, one of `bladerub.extras.cells.ANGLE_UNITS`; else rad
-
-    def __post_init__(self):
-        kind = "mesh" if self.is_table else "table of sections"
-        for name in ("root_set", "tip_set") if self.is_table else ("angle_unit",):
-            if (value := getattr(self, name)) is not None:
-                raise ValueError(f"{name} = {value}: goes with a {kind}, not with {self.file.name}")
-
-    @property
-    def is_table(self) -> bool:
-        """Whether the file is a table of sections, which is meshed here, by ``blade.mesh`` of the config."""
-        return self.file.suffix.lower() in TABLE_SUFFIXES
+def path(source: "settings.Source") -> Path:
+    """Return the file or folder of the ``blade.source`` block of a config, which names it from the study."""
+    return study_folder() / (source.matrices or source.file)
 
 
-@dataclass(frozen=True)
-class MatrixSource:
-    """A folder of matrices that a blade comes from (`bladerub.extras.blades.matrix_folder`)."""
-
-    folder: Path
-    frame: Frame = field(default_factory=Frame)  # unit of the coordinates, axes of nodes and matrices
-    matrix_units: str = "SI"  # one of `MATRIX_UNITS`
-    omega_max: float | None = None  # speed of ``stiffness_max``, rad/s, to check ``reduction.f_omega_max``
-    tip_cone: float | None = None  # as in `Source`
+def frame(source: "settings.Source") -> Frame:
+    """Return unit and axes of a source; raises ValueError as `Frame`."""
+    return Frame(**{key: value for key, value in source.plain().items() if key in _OF_FRAME})
 
 
-def read(source: "settings.Source") -> Source | MatrixSource:
-    """Read the ``blade.source`` block of the config, whose file or folder is relative to the study.
+def is_table(source: "settings.Source") -> bool:
+    """Return whether it is a table of sections, which is meshed here, by ``blade.mesh`` of the config."""
+    return not source.matrices and Path(source.file).suffix.lower() in TABLE_SUFFIXES
 
-    Raises a ValueError that begins with the key if neither ``file`` nor ``matrices`` is there, or keys do not
-    go together.
-    """
-    others = source.plain()
-    path_key = next((name for name in ("matrices", "file") if name in others), None)
-    if path_key is None:
+
+def check(source: "settings.Source") -> None:
+    """Check that the keys of a source go together; a ValueError begins with the key of what does not."""
+    keys = source.plain()
+    place = next((key for key in _KEYS if key in keys), None)
+    if place is None:
         raise ValueError("file: missing; must be given, or matrices in its place")
-    kind = MatrixSource if path_key == "matrices" else Source
-    path = study_folder() / others.pop(path_key)
-    frame = {entry.name: others.pop(entry.name) for entry in fields(Frame) if entry.name in others}
-    names = [entry.name for entry in fields(kind)]
+    for key in keys:
+        if key not in (place, "tip_cone", *_OF_FRAME, *_KEYS[place]):
+            raise ValueError(f"{key} = {keys[key]}: must not be given beside {place}")
+    frame(source)
+    kind, others = ("mesh", _OF_MESHES) if is_table(source) else ("table of sections", _OF_TABLES)
     for key in others:
-        if key not in names:
-            raise ValueError(f"{key} = {others[key]}: must not be given beside {path_key}")
-    return kind(path, Frame(**frame), **others)
+        if key in keys and place == "file":
+            raise ValueError(f"{key} = {keys[key]}: goes with a {kind}, not with {path(source).name}")
 
 
 def conversion(path: Path, suffix: str) -> str:
@@ -117,3 +95,12 @@ def refuse_content(path: Path, error: Exception) -> NoReturn:
         raise error
     reason = str(error) or type(error).__name__
     raise ValueError(f"is not a {path.suffix.lower()} file that can be read ({reason})") from error
+
+
+@contextmanager
+def naming(*paths: Path) -> Iterator[None]:
+    """Add `paths` to the message of a ValueError, which becomes a BadInput."""
+    try:
+        yield
+    except ValueError as error:
+        raise BadInput(f"{' and '.join(map(str, paths))}: {error}") from error

@@ -14,10 +14,11 @@ from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.surface import EDGES, NAMES
+from bladerub.extras.blades import origin
 from bladerub.extras.blades.importing import Imported
 from bladerub.extras.blades.matrices import ImportedMatrices
-from bladerub.extras.blades.origin import MatrixSource, Source
 from bladerub.extras.blades.section_profile import EDGE_SHARE
+from bladerub.extras.blades.settings import Source
 from bladerub.settings.blade import Material
 
 ORDERS = range(1, 13)  # engine orders whose crossings with the first frequency are stated
@@ -51,7 +52,7 @@ def mesh_report(
     """
     mesh = imported.blade.mesh
     figures = {
-        "file": str(source.file),
+        "file": str(origin.path(source)),
         "element": NAMES[mesh.mesh.cells.shape[1]],
         "elements": len(mesh.mesh.cells),
         **_of_blade(source, imported.blade, built, nominal_speed),
@@ -82,7 +83,7 @@ def mesh_report(
 
 
 def matrix_report(
-    source: MatrixSource, imported: ImportedMatrices, built: BuiltBlade, nominal_speed: float | None = None
+    source: Source, imported: ImportedMatrices, built: BuiltBlade, nominal_speed: float | None = None
 ) -> dict[str, Any]:
     """Figures of a blade from matrices, and warnings, as `mesh_report`.
 
@@ -92,7 +93,7 @@ def matrix_report(
     points = layout.mesh.mesh.points
     speeds = list(imported.blade.stiffness)
     figures = {
-        "folder": str(source.folder),
+        "folder": str(origin.path(source)),
         **_of_blade(source, layout, built, nominal_speed),
         "clamped_nodes": int(layout.mesh.root.size),
         "interface": points[layout.mesh.interface].tolist(),
@@ -111,7 +112,7 @@ def matrix_report(
 
 
 def _of_blade(
-    source: Source | MatrixSource, layout: MeshedBlade, built: BuiltBlade, nominal_speed: float | None
+    source: Source, layout: MeshedBlade, built: BuiltBlade, nominal_speed: float | None
 ) -> dict[str, Any]:
     """Figures of the nodes, of the frequencies and of the reduced model."""
     points, table = layout.mesh.mesh.points, built.accuracy
@@ -124,7 +125,7 @@ def _of_blade(
         "tip_nodes": int(layout.mesh.tip.size),
         "extents": _extents(points),
         "length": layout.length,
-        "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(layout.tip_cone)),
+        "tip_cone_degrees": origin.frame(source).downstream_x * float(np.rad2deg(layout.tip_cone)),
         "f1_hz": float(built.frequency[0]),
         "tip_stagger_degrees": _stagger(built.reduced),
         "tip_lean": tip_lean(built.reduced).tolist(),
@@ -166,9 +167,9 @@ def _extents(points: np.ndarray) -> dict[str, list[float]]:
     return {name: [float(value.min()), float(value.max())] for name, value in values.items()}
 
 
-def _warn_of_frame(figures: dict[str, Any], source: Source | MatrixSource, lean: float) -> Iterator[str]:
+def _warn_of_frame(figures: dict[str, Any], source: Source, lean: float) -> Iterator[str]:
     """Warn of a wrong unit or wrong axes; the middle of the blade is `lean` (rad) off its radial axis."""
-    frame, stagger = source.frame, figures["tip_stagger_degrees"]
+    frame, stagger = origin.frame(source), figures["tip_stagger_degrees"]
     if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
         yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
     if abs(lean) > np.deg2rad(LARGEST_LEAN):
@@ -236,15 +237,13 @@ def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -
         yield f"an interface node is {1e3 * offset:.3g} mm from its place on the camber line of the tip"
 
 
-def _warn_of_matrices(
-    figures: dict[str, Any], imported: ImportedMatrices, source: MatrixSource
-) -> Iterator[str]:
+def _warn_of_matrices(figures: dict[str, Any], imported: ImportedMatrices, source: Source) -> Iterator[str]:
     yield from _warn_of_frame(figures, source, imported.blade.layout.lean)
     box = np.prod(np.ptp(imported.blade.layout.mesh.mesh.points, axis=0))
     if not DENSITIES[0] * box <= figures["mass"] <= DENSITIES[1] * box:
         yield (
             f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are the matrices in "
-            f"{source.matrix_units}, and the nodes in {source.frame.unit}?"
+            f"{source.matrix_units or 'SI'}, and the nodes in {origin.frame(source).unit}?"
         )
     if not WAVE_SPEEDS[0] <= imported.wave_speed <= WAVE_SPEEDS[1]:
         yield (

@@ -5,11 +5,11 @@ from itertools import pairwise
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from bladerub.extras.blades import section_table
+from bladerub.extras.blades import origin, section_table
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.origin import Source
 from bladerub.extras.blades.section_profile import SAMPLES, Profile, profile
 from bladerub.extras.blades.section_table import Section
+from bladerub.extras.blades.settings import Source
 
 WIDEST = 50.0  # largest chord over length: beyond, they are not in the same unit
 
@@ -40,9 +40,10 @@ class SectionShape:
 
 def read_profiles(source: Source) -> list[Profile]:
     """Read the sections of the table that `source` names as profiles that a blade can have, hub to tip."""
-    sections = section_table.read(source.file, source.frame, source.angle_unit or "rad")
-    _check_units(sections, source.frame)
-    profiles = [profile(section, source.frame.downstream_x) for section in sections]
+    frame = origin.frame(source)
+    sections = section_table.read(origin.path(source), frame, source.angle_unit or "rad")
+    _check_units(sections, frame)
+    profiles = [profile(section, frame.downstream_x) for section in sections]
     _check_order(profiles)
     return profiles
 

@@ -12,8 +12,8 @@ from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import boundary_faces
 from bladerub.extras.blades.frame import AXES, Frame
 from bladerub.extras.blades.importing import facing, import_blade
-from bladerub.extras.blades.origin import Source
 from bladerub.extras.blades.report import mesh_report
+from bladerub.extras.blades.settings import Source
 from bladerub.extras.blades.tip import interface
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io.errors import BadInput
@@ -36,38 +36,42 @@ def write(blade, tmp_path):
     return file
 
 
+def imported(path, **source):
+    return import_blade(Source(file=str(path), **source), TWISTED.mesh)
+
+
 @pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
 @pytest.mark.parametrize("sets", [{}, {"root_set": "ROOT", "tip_set": "tip"}], ids=["by rule", "by name"])
 def test_the_blade_comes_back_from_its_file(blade, write, name, sets):
-    imported = import_blade(Source(write(name), **sets), TWISTED.mesh).blade
-    mesh = imported.mesh
+    read = imported(write(name), **sets).blade
+    mesh = read.mesh
     for nodes in ("root", "tip", "interface"):
         ours, theirs = (of.mesh.points[getattr(of, nodes)] for of in (blade, mesh))
         if nodes != "interface":
             ours, theirs = np.unique(ours, axis=0), np.unique(theirs, axis=0)
         np.testing.assert_array_equal(theirs, ours)
-    assert np.rad2deg(imported.tip_cone) == pytest.approx(9.0, abs=1e-9)
-    assert imported.length == pytest.approx(0.2, rel=0.01)
+    assert np.rad2deg(read.tip_cone) == pytest.approx(9.0, abs=1e-9)
+    assert read.length == pytest.approx(0.2, rel=0.01)
 
 
 def test_flow_against_x_turns_the_interface_and_the_cone_around_and_loose_nodes_are_left_out(blade, write):
     path = write(points=1e3 * blade.mesh.points)
-    imported = import_blade(Source(path, Frame("mm", downstream="-x"), tip_cone=-9.0), TWISTED.mesh)
-    mesh, ours = imported.blade.mesh, blade.mesh.points[blade.interface]
+    read = imported(path, unit="mm", downstream="-x", tip_cone=-9.0).blade
+    mesh, ours = read.mesh, blade.mesh.points[blade.interface]
     np.testing.assert_allclose(mesh.mesh.points[mesh.interface], ours[::-1], atol=1e-15)
-    assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(9.0)
+    assert np.rad2deg(read.tip_cone) == pytest.approx(9.0)
     loose = write(points=np.vstack([blade.mesh.points, [[0, 0, 0], [9, 9, 9]]]))
-    imported = import_blade(Source(loose), TWISTED.mesh)
-    assert imported.n_unused == 2
-    assert len(imported.blade.mesh.mesh.points) == len(blade.mesh.points)
+    read = imported(loose)
+    assert read.n_unused == 2
+    assert len(read.blade.mesh.mesh.points) == len(blade.mesh.points)
 
 
 def test_figures_are_those_of_the_mesh_and_what_is_odd_gets_a_warning(blade, write):
-    source = Source(write("blade.vtu"))
-    imported = replace(import_blade(source, TWISTED.mesh), interface_offset=0.004)
+    source = Source(file=str(write("blade.vtu")))
+    read = replace(import_blade(source, TWISTED.mesh), interface_offset=0.004)
     reduction = REDUCTION.replaced("modes_per_speed", 6).replaced("rank_tolerance", 1e-6)
-    built = reduce_meshed(imported.blade, BladeSpec(blade=TWISTED, reduction=reduction))
-    figures = mesh_report(source, imported, built, TITANIUM)
+    built = reduce_meshed(read.blade, BladeSpec(blade=TWISTED, reduction=reduction))
+    figures = mesh_report(source, read, built, TITANIUM)
     assert json.loads(json.dumps(figures)) == figures
     assert figures["unknowns"] == 3 * (figures["nodes"] - built.mesh.root.size)
     assert figures["mass"] == pytest.approx(4430.0 * figures["volume"])
@@ -117,7 +121,7 @@ def test_broken_meshes_are_refused_with_file_and_culprit(blade, write):
     for number, (content, source, said) in enumerate(cases):
         path = write(f"broken{number}.inp", **content)
         with pytest.raises(BadInput, match=said) as caught:
-            import_blade(Source(path, **source), TWISTED.mesh)
+            imported(path, **source)
         assert str(caught.value).startswith(f"{path}: ")
         assert "\n" not in str(caught.value)
 

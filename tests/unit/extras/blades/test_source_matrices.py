@@ -17,9 +17,8 @@ from bladerub.blade.elasticity import Solid
 from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
-from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.matrices import check_definite, import_matrices
-from bladerub.extras.blades.origin import MatrixSource, read
+from bladerub.extras.blades.origin import check
 from bladerub.extras.blades.report import matrix_report
 from bladerub.extras.blades.settings import Source
 from bladerub.extras.export.matrices import write_fe_matrices
@@ -34,7 +33,7 @@ def config():
 
 
 def imported(folder, **source):
-    return import_matrices(MatrixSource(folder, **source), 0.4, 8, 3)
+    return import_matrices(Source(matrices=str(folder), **source), REDUCTION)
 
 
 def of_folder(config, folder):
@@ -92,8 +91,8 @@ def test_rows_of_clamped_nodes_other_axes_and_units(discrete, tmp_path):
     nodes["clamped"] = np.isin(np.arange(len(nodes)), mesh.root).astype(int)
     nodes.to_csv(tmp_path / "nodes.csv", index=False)
 
-    frame = Frame("mm", rotation="z", downstream="-z", radial="x")
-    given = imported(tmp_path, frame=frame, matrix_units="mm-tonne", omega_max=omega[-1])
+    frame = {"unit": "mm", "rotation": "z", "downstream": "-z", "radial": "x"}
+    given = imported(tmp_path, **frame, matrix_units="mm-tonne", omega_max=float(omega[-1]))
     assert given.mass == pytest.approx(solid.mass.sum() / 3)
     assert given.mass_is_complete
     assert given.blade.layout.length == pytest.approx(0.2, rel=0.01)
@@ -105,8 +104,9 @@ def test_rows_of_clamped_nodes_other_axes_and_units(discrete, tmp_path):
 
 
 def report(folder, config, units="SI"):
-    source, config = MatrixSource(folder, Frame(), units), config.replaced("reduction.modes_per_speed", 6)
-    given = import_matrices(source, 0.4, 8, 6)
+    source = Source(matrices=str(folder), matrix_units=units)
+    config = config.replaced("reduction.modes_per_speed", 6)
+    given = import_matrices(source, config.reduction)
     return matrix_report(source, given, reduce_given(given.blade, config))
 
 
@@ -133,9 +133,9 @@ def test_figures_are_those_of_the_matrices_and_wrong_units_get_a_warning(folder,
 
 def test_another_speed_is_refused_and_nodes_without_clamped_ones_tell_no_length(folder, discrete, config):
     omega = 2 * np.pi * discrete.frequency[0] * 0.4
-    imported(folder, omega_max=1.0009 * omega)
+    imported(folder, omega_max=float(1.0009 * omega))
     with pytest.raises(BadInput, match=r"is 0.44 of the blade's first .*f_omega_max = 0.4 must be that"):
-        imported(folder, omega_max=1.1 * omega)
+        imported(folder, omega_max=float(1.1 * omega))
     edit_nodes(folder, lambda nodes: nodes[nodes.clamped == 0].drop(columns="clamped"))
     given = imported(folder)
     assert not given.is_rooted
@@ -212,9 +212,9 @@ def test_broken_folders_are_refused_with_file_and_culprit(folder, change, said):
 
 def test_keys_that_do_not_go_together_are_refused():
     with pytest.raises(ValueError, match="file: missing; must be given, or matrices in its place"):
-        read(Source())
+        check(Source())
     with pytest.raises(ValueError, match="root_set = R: must not be given beside matrices"):
-        read(Source(matrices="m", root_set="R"))
+        check(Source(matrices="m", root_set="R"))
 
 
 def test_one_negative_eigenvalue_among_many_is_found():

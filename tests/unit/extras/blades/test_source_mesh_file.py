@@ -5,7 +5,7 @@ from blade_parts import TWISTED, tetrahedral_mesh
 
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import EDGES
-from bladerub.extras.blades import deck_material, file_source
+from bladerub.extras.blades import deck, file_source
 from bladerub.extras.blades.mesh_file import read
 from bladerub.extras.blades.settings import Source
 from bladerub.extras.export.mesh_file import write_mesh_file
@@ -66,12 +66,12 @@ def test_a_deck_is_read_as_abaqus_reads_it_and_an_included_file_is_part_of_the_b
     expected = {"Early": [0, 1, 2], "Some": [0, 2, 3], "Side": [0, 1, 3]}
     assert sets(content) == expected | {key: [0, 1, 2, 3] for key in ("Some more", "OfElements")}
     assert content.volume_sets == ["Eall", "_S_S2"]
-    deck, nodes = tmp_path / "m.inp", tmp_path / "n.inp"
-    deck.write_text("*INCLUDE, INPUT=n.inp\n")
+    main, nodes = tmp_path / "m.inp", tmp_path / "n.inp"
+    main.write_text("*INCLUDE, INPUT=n.inp\n")
     nodes.write_text("*NODE\n1, 0, 0, 0\n")
-    blade = TWISTED.replaced("source", Source(file=str(deck)))
+    blade = TWISTED.replaced("source", Source(file=str(main)))
     before = file_source.recipe(blade)
-    assert file_source.files(blade.source) == [str(deck), str(nodes)]
+    assert file_source.files(blade.source) == [str(main), str(nodes)]
     nodes.write_text("*NODE\n1, 0, 0, 1\n")
     assert file_source.recipe(blade) != before
 
@@ -156,13 +156,13 @@ DECK = "*HEADING\nblade\n*MATERIAL, NAME={}\n*ELASTIC\n{}\n*DENSITY\n{}\n"
 def test_the_material_of_a_deck_is_that_of_its_section_in_the_unit_of_length_and_must_be_isotropic(tmp_path):
     for unit, elastic, density in (("m", "2.1e11, .3,", "7850."), ("ft", "4.385941188e9, 0.3", "15.23120")):
         (tmp_path / "m.inp").write_text(DECK.format("Steel", elastic, density))
-        assert deck_material.read(tmp_path / "m.inp", unit).plain() == pytest.approx(STEEL, rel=1e-4)
+        assert deck.material(tmp_path / "m.inp", unit).plain() == pytest.approx(STEEL, rel=1e-4)
     other = DECK.format("Nickel", "205000, 0.31", "8.2e-9")
     section = '*Solid Section, elset=E, material="steel"\n'
     (tmp_path / "m.inp").write_text(other + DECK.format("Steel", "** MPa\n210000, 0.3", "7.85e-9") + section)
-    assert deck_material.read(tmp_path / "m.inp", "mm").plain() == pytest.approx(STEEL)
+    assert deck.material(tmp_path / "m.inp", "mm").plain() == pytest.approx(STEEL)
     (tmp_path / "m.inp").write_text("*NODE\n1, 0, 0, 0\n")
-    assert deck_material.read(tmp_path / "m.inp", "mm") is None
+    assert deck.material(tmp_path / "m.inp", "mm") is None
     for text, said in (
         (DECK.format("A", "210000, 0.3", "7.85e-9") + DECK.format("B", "1e5, 0.3", "5e-9"), "materials A, B"),
         ("*MATERIAL, NAME=A\n*ELASTIC\n210000, 0.3\n", "A has no .DENSITY"),
@@ -172,4 +172,4 @@ def test_the_material_of_a_deck_is_that_of_its_section_in_the_unit_of_length_and
     ):
         (tmp_path / "m.inp").write_text(text)
         with pytest.raises(ValueError, match=said):
-            deck_material.read(tmp_path / "m.inp", "mm")
+            deck.material(tmp_path / "m.inp", "mm")

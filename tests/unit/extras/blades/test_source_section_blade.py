@@ -11,9 +11,8 @@ from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.extras.blades import section_table
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import import_blade
-from bladerub.extras.blades.origin import Source
 from bladerub.extras.blades.section_profile import EDGE_SHARE
-from bladerub.extras.blades.settings import Source as Settings
+from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import BladeSpec, Mesh
 
@@ -57,9 +56,9 @@ def cartesian(solid, n_sections=9, n_stations=21):
 
 @pytest.fixture
 def read(tmp_path):
-    def blade(table, frame=None):
+    def blade(table, **axes):
         table.to_csv(tmp_path / "blade.csv", index=False)
-        return import_blade(Source(tmp_path / "blade.csv", frame or Frame()), COUNTS)
+        return import_blade(Source(file=str(tmp_path / "blade.csv"), **axes), COUNTS)
 
     return blade
 
@@ -74,7 +73,7 @@ def test_a_twisted_plate_is_that_of_its_formula(read):
     assert imported.blade.length == pytest.approx(LENGTH, rel=1e-9)
     assert imported.blade.tip_cone == pytest.approx(0, abs=1e-9)
     assert all(section.cut == (0, 0) for section in imported.sections)
-    mesh = read(cartesian(twisted_plate), Frame(rotation="x", downstream="x")).blade.mesh
+    mesh = read(cartesian(twisted_plate), rotation="x", downstream="x").blade.mesh
     leading, trailing = mesh.mesh.points[mesh.interface[[0, -1]]]
     assert leading[0] > trailing[0]  # x of the blade's frame points against the rotation vector
 
@@ -113,7 +112,7 @@ def test_a_blade_is_built_from_its_sections_and_is_of_its_table_and_its_mesh(bla
     path = tmp_path / "blade.csv"
     cartesian(twisted_plate).to_csv(path, index=False)
     config = BladeSpec(blade=blade_config, reduction=REDUCTION)
-    config = config.replaced("blade.source", Settings(file=str(path)))
+    config = config.replaced("blade.source", Source(file=str(path)))
     first = made_from(config)
     assert made_from(config.replaced("blade.hub_radius", 1.0)) == first
     config = config.replaced("blade.mesh", COUNTS)
