@@ -4,15 +4,9 @@ from functools import cache
 from bladerub.study.grid import coating_cases
 
 ROTOR37 = f"{RESULTS}/rotor37"
+REFERENCE_BLADE = f"{ROTOR37}/reference/blade/reduced_model.h5"
 REFERENCE_TABLES = ["blade", "direct", "interaction", "coatings"]
-ROTOR37_FIGURES = [
-    "response",
-    "direct",
-    "spectrum_rigid",
-    "spectrum_coated",
-    "wear_straight",
-    "wear_inclined",
-]
+ROTOR37_FIGURES = ["response", "direct", "spectrum_rigid", "spectrum_coated", "wear_straight", "wear_inclined"]
 
 
 @cache
@@ -33,17 +27,17 @@ def rotor37_numbers(wildcards):
 
 
 def rotor37_set(wildcards):
-    """The config of one set, plain: a changed one is a reason to run."""
-    return rotor37_plan()[wildcards.set].plain()
+    """The config of one set, by default the reference, plain: a changed one is a reason to run."""
+    return rotor37_plan()[wildcards.get("set", "reference")].plain()
 
 
 # By an integrator of its own: also a check of the numbers of direct contact
 rule rotor37_independent:
     input:
-        blade=f"{ROTOR37}/reference/blade/reduced_model.h5",
+        blade=REFERENCE_BLADE,
         computing=files_behind("extras.rotor37.direct"),
     output:
-        **described(table=f"{ROTOR37}/reference/independent.csv"),
+        **described(table=f"{ROTOR37}/independent.csv"),
     log:
         f"{RESULTS}/logs/rotor37_independent.log",
     benchmark:
@@ -51,7 +45,7 @@ rule rotor37_independent:
     resources:
         runtime=minutes(10),
     params:
-        config=lambda wildcards: rotor37_plan()["reference"].plain(),
+        config=rotor37_set,
     script:
         "scripts/rotor37_independent.py"
 
@@ -63,45 +57,24 @@ def nlstep_program(wildcards):
         return str(program())
 
 
-def nlstep_numbers(wildcards):
-    from bladerub.extras.rotor37.nlstep import CASES
-
-    return [
-        f"{ROTOR37}/reference/nlstep/mu{friction:g}_{modes}_{steps}.csv" for friction, modes, steps in CASES
-    ]
-
-
 # Only where NLstep is: BLADERUB_NLSTEP=FOLDER snakemake -j2 rotor37_nlstep
-rule rotor37_nlstep_case:
-    input:
-        blade=f"{ROTOR37}/reference/blade/reduced_model.h5",
-        computing=files_behind("extras.rotor37.nlstep"),
-        octave=[f"src/bladerub/extras/rotor37/octave/{name}.m" for name in ("CMS_ROM", "direct_contact")],
-        program=nlstep_program,
-    output:
-        **described(table=f"{ROTOR37}/reference/nlstep/mu{{friction}}_{{modes}}_{{steps}}.csv"),
-    log:
-        f"{RESULTS}/logs/rotor37_nlstep/mu{{friction}}_{{modes}}_{{steps}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor37_nlstep/mu{{friction}}_{{modes}}_{{steps}}.tsv"
-    resources:
-        runtime=minutes(30),
-    params:
-        config=lambda wildcards: rotor37_plan()["reference"].plain(),
-    script:
-        "scripts/rotor37_nlstep_case.py"
-
-
 rule rotor37_nlstep:
     input:
-        numbers=nlstep_numbers,
+        blade=REFERENCE_BLADE,
+        computing=files_behind("extras.rotor37.nlstep"),
+        octave=[f"src/bladerub/extras/rotor37/octave/{name}.m" for name in ("CMS_ROM", "direct_contact")],
         program=nlstep_program,
     output:
         **described(table=f"{ROTOR37}/nlstep.csv"),
     log:
         f"{RESULTS}/logs/rotor37_nlstep.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor37_nlstep.tsv"
+    threads: 2
+    resources:
+        runtime=minutes(60),
     params:
-        config=lambda wildcards: rotor37_plan()["reference"].plain(),
+        config=rotor37_set,
     script:
         "scripts/rotor37_nlstep.py"
 
@@ -115,11 +88,10 @@ rule rotor37:
             "plots.spectrum",
             "plots.wear_map",
         ),
-        independent=f"{ROTOR37}/reference/independent.csv",
+        independent=rules.rotor37_independent.output.table,
     output:
         **described(
             history=f"{ROTOR37}/direct_history.csv",
-            independent=f"{ROTOR37}/independent.csv",
             **{name: f"{ROTOR37}/{name}.csv" for name in REFERENCE_TABLES},
         ),
         png=[f"{ROTOR37}/figures/{name}.png" for name in ROTOR37_FIGURES],
@@ -205,7 +177,8 @@ PICTURES["rotor37_images"] = {
 # The reference numbers of the repository, once they are computed anew
 rule rotor37_reference:
     input:
-        [rules.rotor37.output[name] for name in [*REFERENCE_TABLES, "history", "independent"]],
+        rules.rotor37_independent.output.table,
+        [rules.rotor37.output[name] for name in [*REFERENCE_TABLES, "history"]],
     log:
         f"{RESULTS}/logs/rotor37_reference.log",
     script:

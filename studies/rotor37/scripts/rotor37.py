@@ -44,7 +44,6 @@ for name, files in parts.items():
 
 history = f"{folder}/{reference.REFERENCE}/history.csv"
 tables.copy(history, snakemake.output.history)
-tables.copy(snakemake.input.independent, snakemake.output.independent)
 
 blade = read_reduced_blade(f"{folder}/{reference.REFERENCE}/blade/reduced_model.h5")
 maps = {case: read_map(f"{folder}/{reference.REFERENCE}/maps/{case.name}.h5") for case in cases}

@@ -1,4 +1,4 @@
-"""Collect the cases that NLstep computed, and say which NLstep it was."""
+"""Compute the direct contact of Rotor 37 by NLstep, and say which NLstep it was."""
 
 from bladerub.workflow import job
 
@@ -6,14 +6,14 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-import pandas as pd
-
-from bladerub.extras.rotor37.nlstep import COLUMNS, describe
-from bladerub.io import tables
+from bladerub.blade.validation import read_reduced_blade
+from bladerub.extras.rotor37 import nlstep
 from bladerub.io.provenance import PREFIX, provenance
+from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
-numbers = pd.concat([tables.read(path, COLUMNS) for path in snakemake.input.numbers], ignore_index=True)
-made_by = {f"{PREFIX}program": describe(Path(snakemake.input.program))}
-origin = provenance(snakemake.params.config) | made_by
+config, function = snakemake.params.config, Path(snakemake.input.program)
+blade = read_reduced_blade(snakemake.input.blade)
+numbers = nlstep.table(typed(config), blade, function, snakemake.threads)
+origin = provenance(config) | {f"{PREFIX}program": nlstep.describe(function)}
 outputs.save(snakemake, origin=origin, digits="%.7g", table=numbers)

@@ -158,7 +158,8 @@ def _import_sections(source: Source, counts: Mesh, n_interface: int) -> Imported
 def measured(mesh: BladeMesh, frame: Frame, tip_cone: float | None) -> MeshedBlade:
     """Measure the length of the blade and, if it is not given in degrees, the cone of its tip.
 
-    A ValueError says if the length is none of a blade. It is that from the clamped nodes to the tip or, where no node is clamped, the range of the radii.
+    A ValueError says if the length is none of a blade. It is that from the clamped nodes to the tip or, where
+    no node is clamped, the range of the radii.
     """
     points = mesh.mesh.points
     radius = np.hypot(points[:, 1], points[:, 2])

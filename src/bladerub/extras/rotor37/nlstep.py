@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +46,7 @@ CASES = (
 )
 """Coefficient of friction, modes that move, and time steps in a revolution."""
 COLUMNS = ["modes", "steps_per_revolution", "number", "value", "unit"]
+"""Columns of the `table`."""
 
 _DIFFERENCE = 1e-6  # rad, for the slope of the casing
 
@@ -155,13 +157,16 @@ def _octave(*arguments: str) -> str:
     return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
-def table(
-    config: Config, blade: ReducedBlade, function: Path, friction: float, n_modes: int, steps: int
-) -> pd.DataFrame:
-    """Measure one of `CASES` by NLstep: the numbers of `direct`, columns `COLUMNS`."""
-    model, spec = direct.unstiffened(blade), direct.spec_of(config, blade, friction)
-    displacement, in_contact = integrate(function, case(model, spec, n_modes, steps))
-    name = f"rest_mu{friction:g}"
-    numbers = of_displacement(name, displacement, spec.revolutions)[["number", "value", "unit"]]
-    numbers.loc[len(numbers)] = [f"{name}.contact_share", in_contact.mean(), "1"]
-    return numbers.assign(modes=n_modes, steps_per_revolution=steps)[COLUMNS]
+def table(config: Config, blade: ReducedBlade, function: Path, threads: int) -> pd.DataFrame:
+    """Measure `CASES` by NLstep, `threads` at a time: the numbers of `direct`, columns `COLUMNS`."""
+    model = direct.unstiffened(blade)
+
+    def measure(friction: float, n_modes: int, steps: int) -> pd.DataFrame:
+        spec, name = direct.spec_of(config, blade, friction), f"rest_mu{friction:g}"
+        displacement, in_contact = integrate(function, case(model, spec, n_modes, steps))
+        numbers = of_displacement(name, displacement, spec.revolutions)[["number", "value", "unit"]]
+        numbers.loc[len(numbers)] = [f"{name}.contact_share", in_contact.mean(), "1"]
+        return numbers.assign(modes=n_modes, steps_per_revolution=steps)[COLUMNS]
+
+    with ThreadPoolExecutor(threads) as pool:
+        return pd.concat(pool.map(measure, *zip(*CASES, strict=True)), ignore_index=True)

@@ -12,9 +12,8 @@ from bladerub.config.read import read
 from bladerub.contact.modes import at_tip
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Coating
-from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import import_blade
-from bladerub.extras.blades.origin import Source
+from bladerub.extras.blades.settings import Source
 from bladerub.extras.export.calculix import deck
 from bladerub.extras.export.calculix import frequencies as read_frequencies
 from bladerub.extras.export.matrices import write_matrices
@@ -39,7 +38,7 @@ def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(tm
     if coordinates == "cylindrical":
         table[["theta1", "theta2"]] = np.rad2deg(table[["theta1", "theta2"]])
     table.to_csv(path, index=False)
-    imported = import_blade(Source(path, Frame("inch"), angle_unit="deg"), COUNTS)
+    imported = import_blade(Source(file=str(path), unit="inch", angle_unit="deg"), COUNTS)
     ours = BladeMesh.from_shape(BladeShape.from_config(blade), COUNTS)
     found, expected = (frequencies(of.mesh, of.root, blade.material) for of in (imported.blade.mesh, ours))
     np.testing.assert_allclose(found, expected, rtol=3e-4)
