@@ -33,38 +33,11 @@ class BuiltBlade:
 
 
 def write(built: BuiltBlade, origin: Mapping[str, str], reduced_model: Path) -> None:
-    """Write a blade to `bladerub.blade.files.paths` of its reduced model; `origin` is their provenance.
+    """Write a blade to the file of its reduced model and, next to it, mesh and table of its accuracy.
 
-    The reduced model is written last: if it exists, the other files do too.
+    `origin` is their provenance. The mesh holds what a picture of the blade and of its motion needs, with
+    node numbers from 0. The reduced model is written last: if it exists, the other files do too.
     """
-    _write_mesh(mesh_path(reduced_model), built, origin)
-    tables.write(accuracy_path(reduced_model), built.accuracy, origin, float_format="%.10g")
-    write_reduced_blade(reduced_model, built.reduced, origin)
-
-
-def read(reduced_model: Path) -> BuiltBlade:
-    """Read the blade that `write` wrote: written again, it gives the same bytes.
-
-    Raises an OSError that names the file if one is missing or damaged.
-    """
-    path = mesh_path(reduced_model)
-    data, attributes = hdf5.read(path)
-    try:
-        points, cells = data["points"], data["cells"]
-        mesh, _ = solid_mesh(points, cells) if len(cells) else (NodeCloud(points), None)
-        return BuiltBlade(
-            read_reduced_blade(reduced_model),
-            BladeMesh(mesh, *(data[f"{name}_nodes"] for name in ("root", "tip", "interface"))),
-            *map(data.__getitem__, ("frequency", "mode_shape", "recovery", "static_displacement", "f_omega")),
-            tables.read(accuracy_path(reduced_model), ACCURACY_COLUMNS),
-            attributes["made_from"],
-        )
-    except (KeyError, ValueError) as error:
-        raise DamagedFile(f"{path}: not the mesh of a blade ({error})") from error
-
-
-def _write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -> None:
-    """Write what a picture of the blade and of its motion needs, with node numbers from 0."""
     mesh = built.mesh
     numbering = (
         "nodes of each hexahedron (20) or tetrahedron (10): corners, then edges, as in CalculiX and VTK"
@@ -92,4 +65,27 @@ def _write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) 
             ("f_omega", "node", "axis"), built.static_displacement, "m", "displacement under centrifugal load"
         ),
     }
-    hdf5.write(path, variables, {"made_from": built.made_from}, origin)
+    hdf5.write(mesh_path(reduced_model), variables, {"made_from": built.made_from}, origin)
+    tables.write(accuracy_path(reduced_model), built.accuracy, origin, float_format="%.10g")
+    write_reduced_blade(reduced_model, built.reduced, origin)
+
+
+def read(reduced_model: Path) -> BuiltBlade:
+    """Read the blade that `write` wrote: written again, it gives the same bytes.
+
+    Raises an OSError that names the file if one is missing or damaged.
+    """
+    path = mesh_path(reduced_model)
+    data, attributes = hdf5.read(path)
+    try:
+        points, cells = data["points"], data["cells"]
+        mesh, _ = solid_mesh(points, cells) if len(cells) else (NodeCloud(points), None)
+        return BuiltBlade(
+            read_reduced_blade(reduced_model),
+            BladeMesh(mesh, *(data[f"{name}_nodes"] for name in ("root", "tip", "interface"))),
+            *map(data.__getitem__, ("frequency", "mode_shape", "recovery", "static_displacement", "f_omega")),
+            tables.read(accuracy_path(reduced_model), ACCURACY_COLUMNS),
+            attributes["made_from"],
+        )
+    except (KeyError, ValueError) as error:
+        raise DamagedFile(f"{path}: not the mesh of a blade ({error})") from error

@@ -21,14 +21,10 @@ def accuracy_path(reduced_model: Path) -> Path:
     return reduced_model.with_name("rom_accuracy.csv")
 
 
-def paths(reduced_model: Path) -> tuple[Path, Path, Path]:
-    """Return the files of a blade whose reduced model is the file `reduced_model`."""
-    return reduced_model, mesh_path(reduced_model), accuracy_path(reduced_model)
-
-
 def missing_file(reduced_model: Path) -> Path | None:
-    """Return the first of the `paths` of a blade that is not there."""
-    return next((path for path in paths(reduced_model) if not path.exists()), None)
+    """Return the first of the files of a blade, whose reduced model is `reduced_model`, that is not there."""
+    paths = reduced_model, mesh_path(reduced_model), accuracy_path(reduced_model)
+    return next((path for path in paths if not path.exists()), None)
 
 
 def made_from(config: BladeSpec) -> str:

@@ -18,7 +18,7 @@ positive with the rotation, and then wrapped: ``phi = t / r``.
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 import scipy  # its parts when they are used: every call of snakemake imports this module
@@ -168,15 +168,9 @@ def corner_jacobians(points: np.ndarray) -> np.ndarray:
 
     From the corners (3, nx, ny, nz) to (8, nx - 1, ny - 1, nz - 1); positive for a right-handed element.
     """
-    edges = [np.diff(points, axis=axis) for axis in (1, 2, 3)]
+    along_xi, along_eta, along_zeta = (np.diff(points, axis=axis) for axis in (1, 2, 3))
     corners = []
-    for i, j, k in np.ndindex(2, 2, 2):
-        along_xi = edges[0][:, :, _side(j), _side(k)]
-        along_eta = edges[1][:, _side(i), :, _side(k)]
-        along_zeta = edges[2][:, _side(i), _side(j), :]
-        corners.append(np.sum(np.cross(along_xi, along_eta, axis=0) * along_zeta, axis=0))
+    for i, j, k in product((slice(None, -1), slice(1, None)), repeat=3):  # the lower and the upper side
+        face = np.cross(along_xi[:, :, j, k], along_eta[:, i, :, k], axis=0)
+        corners.append(np.sum(face * along_zeta[:, i, j, :], axis=0))
     return np.stack(corners)
-
-
-def _side(upper: int) -> slice:
-    return slice(1, None) if upper else slice(None, -1)

@@ -37,22 +37,18 @@ def speed_law(fits: Sequence, f_max: float) -> tuple:
     With the three speeds of the paper this is eq. (3); with more, eq. (2) goes on with the next even powers.
     """
     if len(fits) == 3:
-        return _quartic_law(*fits, f_max)
+        at_rest, at_half, at_max = fits
+        k1 = (16 * at_half - at_max - 15 * at_rest) / (3 * f_max**2)  # eq. (3)
+        # eq. (3) is misprinted there: the factor 3 / (4 f_max^4) of the paper does not return K(f_max / 2)
+        # and K(f_max); its reciprocal in the numbers, 4 / (3 f_max^4), does.
+        k2 = 4 / (3 * f_max**4) * (at_max - 4 * at_half + 3 * at_rest)  # eq. (3), corrected
+        return at_rest, k1, k2
     squares = np.square(fit_speeds(1.0, len(fits)))
     shares = np.linalg.inv(np.vander(squares, increasing=True))  # of each fit in each coefficient
     return tuple(
         sum(share * fit for share, fit in zip(row, fits, strict=True)) / f_max ** (2 * power)
         for power, row in enumerate(shares)
     )
-
-
-def _quartic_law(at_rest, at_half, at_max, f_max: float) -> tuple:
-    k0 = at_rest  # eq. (3)
-    k1 = (16 * at_half - at_max - 15 * at_rest) / (3 * f_max**2)  # eq. (3)
-    # eq. (3) is misprinted there: the factor 3 / (4 f_max^4) of the paper does not return K(f_max / 2) and
-    # K(f_max); its reciprocal in the numbers, 4 / (3 f_max^4), does.
-    k2 = 4 / (3 * f_max**4) * (at_max - 4 * at_half + 3 * at_rest)  # eq. (3), corrected
-    return k0, k1, k2
 
 
 @dataclass(frozen=True)

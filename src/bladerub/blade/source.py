@@ -31,10 +31,10 @@ def place(blade: Blade) -> str | None:
     source, places = blade.plugged("source"), plugins.offered("SOURCES")
     if source is None:
         return None
-    given = [place for key, place in places.items() if source.plugged(key) is not None]
-    if not given:
-        raise ValueError(f"blade.source: must have {' or '.join(sorted(places)) or 'a plugin that reads it'}")
-    return given[0]
+    for key, place in places.items():
+        if source.plugged(key) is not None:
+            return place
+    raise ValueError(f"blade.source: must have {' or '.join(sorted(places)) or 'a plugin that reads it'}")
 
 
 def modules(config: BladeSpec) -> list[str]:
