@@ -12,22 +12,11 @@ from bladerub.extras.blades import deck
 from bladerub.extras.blades.deck import Block, Line
 
 _SOLID = re.compile(r"C3D(\d+)[A-Z]*")
-_KINDS = {
-    4: "tetra",
-    5: "pyramid",
-    6: "wedge",
-    8: "hexahedron",
-    10: "tetra10",
-    13: "pyramid13",
-    15: "wedge15",
-    20: "hexahedron20",
-    27: "hexahedron27",
-}  # in meshio, by number of nodes
-_MARKING = re.compile(
-    r"(T[23]D[23]|B[23][123]|STRI|S[34689]|M3D|SFM3D|CP[ES]\d|R3D|DS\d)\w*"
-)  # elements of lines and surfaces, whose sets are sets of nodes here
+_KINDS = {4: "tetra", 5: "pyramid", 6: "wedge", 8: "hexahedron"}  # in meshio, by number of nodes
+_KINDS |= {10: "tetra10", 13: "pyramid13", 15: "wedge15", 20: "hexahedron20", 27: "hexahedron27"}
+# elements of lines and surfaces, whose sets are sets of nodes here
+_MARKING = re.compile(r"(T[23]D[23]|B[23][123]|STRI|S[34689]|M3D|SFM3D|CP[ES]\d|R3D|DS\d)\w*")
 _GENERATING = ("*NGEN", "*NFILL", "*NCOPY", "*NMAP", "*ELGEN", "*ELCOPY")
-_CARTESIAN = "R"
 _FACE_LABEL = re.compile("S([1-6])")
 _QUADRATIC = {8: 20, 20: 20, 4: 10, 10: 10}  # nodes of the element with the same faces
 
@@ -48,6 +37,9 @@ def read(path: Path) -> Content:
     model = _Model(blocks)
     if not model.rows:
         raise ValueError("has no *NODE, as a deck of Abaqus or CalculiX has")
+    cells: dict[str, list[list[int]]] = {}
+    for number, kind in model.kinds.items():
+        cells.setdefault(kind, []).append([model.rows[node] for node in model.nodes[number]])
     node_sets, volume_sets = dict(model.node_sets), []
     for name, numbers in model.element_sets.items():
         if model.kinds.keys() & numbers.keys():
@@ -56,7 +48,7 @@ def read(path: Path) -> Content:
             node_sets.setdefault(name, dict.fromkeys(model.nodes_of(numbers)))
     return Content(
         np.array(model.points),
-        {kind: np.array(cells) for kind, cells in model.solids().items()},
+        {kind: np.array(rows) for kind, rows in cells.items()},
         {name: np.array([model.rows[node] for node in nodes], int) for name, nodes in node_sets.items()},
         volume_sets,
     )
@@ -66,12 +58,12 @@ def _check(blocks: list[Block]) -> None:
     """Refuse what makes or moves nodes or elements in a way that is not followed here."""
     for block in blocks:
         where = f"{block.place}: has {block.keyword}"
-        system = block.parameters.get("SYSTEM", _CARTESIAN).upper()
+        system = block.parameters.get("SYSTEM", "R").upper()
         if block.keyword in _GENERATING:
             raise ValueError(f"{where}, which makes nodes or elements; must list them all")
         if block.keyword == "*SYSTEM" and block.lines:
             raise ValueError(f"{where}; nodes must be in the axes of the whole model")
-        if block.keyword == "*NODE" and system != _CARTESIAN:
+        if block.keyword == "*NODE" and system != "R":
             raise ValueError(f"{where} with SYSTEM={system}; must be in Cartesian coordinates")
         if block.keyword == "*INSTANCE" and any(re.search("[1-9]", line.text) for line in block.lines):
             raise ValueError(f"{where}, which moves its part; must leave it where it is")
@@ -126,13 +118,6 @@ class _Model:
                 if block.keyword in keywords:
                     add(block, in_part)
 
-    def solids(self) -> dict[str, list[list[int]]]:
-        """Rows of the nodes of solid elements, by kind."""
-        cells: dict[str, list[list[int]]] = {}
-        for number, kind in self.kinds.items():
-            cells.setdefault(kind, []).append([self.rows[node] for node in self.nodes[number]])
-        return cells
-
     def nodes_of(self, elements: Iterable[int]) -> Iterator[int]:
         """Yield the nodes of `elements`."""
         return (node for number in elements for node in self.nodes[number])
@@ -167,18 +152,17 @@ class _Model:
             elements = self.element_sets.members(parameters["ELSET"], block.place)
             self.node_sets.add(_name(block, "NSET"), self.nodes_of(elements), in_part, block.place)
             return
-        sets, members = {"*NSET": (self.node_sets, self.rows), "*ELSET": (self.element_sets, self.nodes)}[
-            block.keyword
-        ]
+        sets, members = self.element_sets, self.nodes
+        if block.keyword == "*NSET":
+            sets, members = self.node_sets, self.rows
         name = _name(block, block.keyword[1:])
         sets.add(name, [], in_part, block.place)
         for line in block.lines:
             numbers = _range(line) if "GENERATE" in parameters else _members(line, sets)
-            present = [number for number in numbers if number in members]
-            if len(present) < len(numbers) and "GENERATE" not in parameters:
-                absent = next(number for number in numbers if number not in members)
-                raise ValueError(f"{line.place}: {absent} of the set {name} is not there")
-            sets.add(name, present, in_part, line.place)
+            absent = [number for number in numbers if number not in members]
+            if absent and "GENERATE" not in parameters:
+                raise ValueError(f"{line.place}: {absent[0]} of the set {name} is not there")
+            sets.add(name, filter(members.__contains__, numbers), in_part, line.place)
 
     def _add_surface(self, block: Block, in_part: bool) -> None:
         """Add the nodes of a surface as a set of nodes, unless one has its name."""

@@ -57,15 +57,14 @@ def files(folder: Path) -> dict[str, Path]:
     paths = {}
     for name in (MASS, *FIT, *sorted(speed_names)):
         matches = [path for suffix in SUFFIXES if (path := folder / f"{name}{suffix}").is_file()]
-        if len(matches) != 1:
-            either = f"{name}.mtx or {name}.npz"
+        if len(matches) > 1:
+            raise ValueError(f"holds both {name}.mtx and {name}.npz")
+        if not matches:
             ccx = [path.name for path in sorted(folder.iterdir()) if path.suffix in _SUFFIXES_OF_CALCULIX]
+            others = [path.name for path in sorted(folder.glob(f"{name}.*"))]
             hint = f"; {_CONVERTED} {', '.join(ccx)} of CalculiX" if ccx else ""
-            others = [path.name for path in sorted(folder.glob(f"{name}.*")) if path.suffix not in SUFFIXES]
             hint = hint or (f", but {', '.join(others)}" if others else "")
-            raise ValueError(
-                f"holds both {either.replace('or', 'and')}" if matches else f"holds no {either}{hint}"
-            )
+            raise ValueError(f"holds no {name}.mtx or {name}.npz{hint}")
         (paths[name],) = matches
     if not (folder / NODES).is_file():
         raise ValueError(f"holds no {NODES}")

@@ -22,13 +22,10 @@ meshio = package("meshio", "mesh")
 log = logging.getLogger(__name__)
 
 _LOOKED_THROUGH = 4000  # characters, for the first line
-_STARTS = {
-    **dict.fromkeys(("*NODE", "*HEADING", "*PART"), ".inp"),
-    "$MESHFORMAT": ".msh",
-    "<VTKFILE": ".vtu",
-    "# VTK DATAFILE": ".vtk",
-    **dict.fromkeys(("SOL ", "CEND", "BEGIN BULK", "GRID"), ".bdf"),
-}  # first words of files, and how their names end
+# first words of files, and how their names end
+_STARTS = {"$MESHFORMAT": ".msh", "<VTKFILE": ".vtu", "# VTK DATAFILE": ".vtk"}
+_STARTS |= dict.fromkeys(("*NODE", "*HEADING", "*PART"), ".inp")
+_STARTS |= dict.fromkeys(("SOL ", "CEND", "BEGIN BULK", "GRID"), ".bdf")
 
 _ENDS = {".msh": "$End", ".vtu": "</VTKFile>"}
 _WITH_CENTRES = "hexahedron27"
@@ -57,10 +54,9 @@ def read(path: str | Path) -> MeshFile:
     """
     path = Path(path)
     origin.check_file(path)
-    suffix = path.suffix.lower()
     _check_start(path)
     _check_end(path)
-    content = deck_mesh.read(path) if suffix == ".inp" else _of_meshio(_read_by_meshio(path))
+    content = deck_mesh.read(path) if path.suffix.lower() == ".inp" else _of_meshio(_read_by_meshio(path))
     cells = _volume(content)
     points = np.asarray(content.points, dtype=float)
     if points.shape[1:] != (3,):
@@ -148,14 +144,11 @@ def _volume(content: Content) -> np.ndarray:
 
 def _volume_sets(mesh: meshio.Mesh) -> list[str]:
     groups = [name for name, (_, dimension) in mesh.field_data.items() if dimension == 3]
-    return groups + [
-        name
-        for name, members in mesh.cell_sets.items()
-        if any(
-            block.dim == 3 and rows is not None and len(rows)
-            for block, rows in zip(mesh.cells, members, strict=False)
-        )
-    ]
+    for name, members in mesh.cell_sets.items():
+        blocks = zip(mesh.cells, members, strict=False)
+        if any(block.dim == 3 and rows is not None and len(rows) for block, rows in blocks):
+            groups.append(name)
+    return groups
 
 
 def _node_sets(mesh: meshio.Mesh) -> dict[str, np.ndarray]:

@@ -188,28 +188,26 @@ def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
     """Warn of what no blade is like: a length or an angle is in another unit than the rest."""
     length, chord = figures["length"], figures["tip_chord"]
     root, tip = figures["extents"]["radius"]
-    speed = 2 * np.pi * figures["f1_hz"] * figures["f_omega_max"] * tip
-    sections = figures.get("sections", ())
-    thin = next(
-        (section for section in sections if section["thickness"] < LEAST_THICKNESS * section["chord"]), None
-    )
-    if thin:
-        size = f"{1e3 * thin['thickness']:.2g} mm thick over a chord of {1e3 * thin['chord']:.3g} mm"
-        yield f"section {thin['name']} is {size}: are its angles in their unit, rad or deg?"
+    for section in figures.get("sections", ()):
+        if section["thickness"] < LEAST_THICKNESS * section["chord"]:
+            size = (
+                f"{1e3 * section['thickness']:.2g} mm thick over a chord of {1e3 * section['chord']:.3g} mm"
+            )
+            yield f"section {section['name']} is {size}: are its angles in their unit, rad or deg?"
+            break
     if not ASPECTS[0] <= length / chord <= ASPECTS[1]:
         size = f"{1e3 * length:.3g} mm long with a chord of {1e3 * chord:.3g} mm at the tip"
         yield f"it is {size}: are all lengths in one unit?"
     if not HUB_RATIOS[0] <= root / tip <= HUB_RATIOS[1]:
         radii = f"from {1e3 * root:.3g} to {1e3 * tip:.3g} mm from the engine axis"
         yield f"it reaches {radii}: are all lengths in one unit, and is the origin on the engine axis?"
-    if speed > LARGEST_TIP_SPEED:
-        state = f"reduction.f_omega_max = {figures['f_omega_max']:g}"
-        yield f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears: is its radius right?"
-    nominal = figures["nominal_speed"]
-    speed = 2 * np.pi * (nominal or 0.0) / 60 * tip
-    if speed > LARGEST_TIP_SPEED:
-        state = f"{nominal:g} 1/min with a radius of {1e3 * tip:.3g} mm"
-        yield f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears: is its unit right?"
+    fastest, nominal = figures["f_omega_max"], figures["nominal_speed"] or 0.0
+    for turns, state, key in (  # a second
+        (figures["f1_hz"] * fastest, f"reduction.f_omega_max = {fastest:g}", "radius"),
+        (nominal / 60, f"{nominal:g} 1/min with a radius of {1e3 * tip:.3g} mm", "unit"),
+    ):
+        if (speed := 2 * np.pi * turns * tip) > LARGEST_TIP_SPEED:
+            yield f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears: is its {key} right?"
 
 
 def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
@@ -222,10 +220,9 @@ def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -
         yield f"{imported.n_unused} nodes of the file belong to no element and were left out"
     if n_elements < FEWEST_ELEMENTS:
         yield f"its mesh is coarse, with {n_elements} elements from root to tip: compare with a finer mesh"
-    if figures["worst_jacobian"] < LEAST_JACOBIAN_RATIO:
-        factor = 1 / figures["worst_jacobian"]
+    if (ratio := figures["worst_jacobian"]) < LEAST_JACOBIAN_RATIO:
         worst = np.argmin(imported.jacobian_ratio) + 1
-        yield f"element {worst} is badly shaped: its Jacobian varies by a factor of {factor:.3g}"
+        yield f"element {worst} is badly shaped: its Jacobian varies by a factor of {1 / ratio:.3g}"
     cut = [section for section in imported.sections if max(section.cut) > 0]
     if cut:
         share, name = max((max(section.cut) / section.chord, section.name) for section in cut)

@@ -150,17 +150,15 @@ def _misplaced(stiffness, pairs, points, free, bad, rows) -> str | None:
     block = sparse.csc_array(stiffness[coordinates][:, coordinates])
     x_turn, y_turn, z_turn = -spsolve(block, (stiffness @ motion)[coordinates]).T.reshape(3, -1, 3)
     middle = points.mean(axis=0)
-    place = middle + np.stack([-y_turn[:, 2], -z_turn[:, 0], -x_turn[:, 1]], axis=1)
     moved = points.copy()
-    moved[inner] = place
+    moved[inner] = place = middle + np.stack([-y_turn[:, 2], -z_turn[:, 0], -x_turn[:, 1]], axis=1)
     if (free & (_turned(stiffness, pairs, moved) > _TURNED)).any():
         return None
     tolerance = _APART * _reach(pairs, points)[inner]
     wrong = np.linalg.norm(place - points[inner], axis=1) > tolerance
     to_listed = cKDTree(points[inner[wrong]]).query(place[wrong])[0]
-    cure = "exchanged" if wrong.sum() == 2 else "in another order"
-    if (to_listed > tolerance[wrong]).any():
-        cure = "in another place"
+    is_new = (to_listed > tolerance[wrong]).any()
+    cure = "in another place" if is_new else "exchanged" if wrong.sum() == 2 else "in another order"
     return f"{_listed(rows[inner[wrong]])}: must be {cure}"
 
 
@@ -184,10 +182,6 @@ def _lengths(pairs: sparse.csr_array, points: np.ndarray) -> sparse.csr_array:
     return sparse.csr_array((lengths, pairs.indices, pairs.indptr), shape=pairs.shape)
 
 
-def _translations(n: int) -> np.ndarray:
-    return np.tile(np.eye(3), (n, 1))
-
-
 def _rotations(points: np.ndarray) -> np.ndarray:
     """Displacements (3n, 3) by unit rotations about three axes through the middle of `points`."""
     arms = points - points.mean(axis=0)
@@ -201,7 +195,7 @@ def _forces(matrix: sparse.csc_array, motion: np.ndarray) -> np.ndarray:
 
 def _held(stiffness: sparse.csc_array, pairs: sparse.csr_array) -> np.ndarray:
     """Whether a translation leaves forces at each node (n,)."""
-    return _forces(stiffness, _translations(pairs.shape[0])) > _HELD * pairs.sum(axis=1)
+    return _forces(stiffness, np.tile(np.eye(3), (pairs.shape[0], 1))) > _HELD * pairs.sum(axis=1)
 
 
 def _turned(stiffness: sparse.csc_array, pairs: sparse.csr_array, points: np.ndarray) -> np.ndarray:
@@ -214,7 +208,7 @@ def _turned(stiffness: sparse.csc_array, pairs: sparse.csr_array, points: np.nda
 def _unequal(mass: sparse.csc_array) -> np.ndarray:
     """Whether the mass of each node (n,) is not that of a body; of nodes joined to all others it may be."""
     pairs = _pairs(mass)
-    sums = (mass @ _translations(pairs.shape[0])).reshape(-1, 3, 3)
+    sums = (mass @ np.tile(np.eye(3), (pairs.shape[0], 1))).reshape(-1, 3, 3)
     mean = np.trace(sums, axis1=1, axis2=2)[:, None, None] / 3
     off = np.linalg.norm((sums - mean * np.eye(3)).reshape(-1, 9), axis=1)
     return (off > _UNEQUAL * pairs.sum(axis=1)) & (np.diff(pairs.indptr) < max(len(off), 2))
