@@ -21,15 +21,6 @@ def rotor_runs(combination):
         return rotor_plan().runs(STUDY, combination)
 
 
-def planned_rows(wildcards):
-    """All that determines the rows but the blade: a changed one is a reason to run."""
-    return {run.file: run.determinants for run in rotor_runs(wildcards.combination).runs}
-
-
-def rotor_minutes(wildcards, attempt):
-    return minutes_for(rotor_runs(wildcards.combination).runs, attempt)
-
-
 ROW_MANIFEST = f"{OF_ROWS}/{{combination}}/manifest.tsv"
 
 
@@ -47,17 +38,20 @@ rule rotor_combination:
         f"{RESULTS}/benchmarks/rotor_combination/{{combination}}.tsv"
     resources:
         mem_mb=memory_mb,
-        runtime=rotor_minutes,
+        runtime=lambda wildcards, attempt: minutes_for(rotor_runs(wildcards.combination).runs, attempt),
     params:
         folder=subpath(output.manifest, parent=True),
         plan=lambda wildcards: rotor_runs(wildcards.combination),
-        planned=planned_rows,
+        # all that determines the rows but the blade: a changed one is a reason to run
+        planned=lambda wildcards: {
+            run.file: run.determinants for run in rotor_runs(wildcards.combination).runs
+        },
     script:
         script_of("coating")
 
 
 def rotor_manifests(wildcards):
-    return [f"{OF_ROWS}/{name}/manifest.tsv" for name in rotor_plan().combinations]
+    return expand(ROW_MANIFEST, combination=rotor_plan().combinations)
 
 
 rule rotor_tables:

@@ -47,12 +47,9 @@ class BladeShape:
     def from_config(cls, blade: Blade) -> "BladeShape":
         """Read the shape from the ``blade`` block of the config (angles there in degrees)."""
         span = np.array([s.span for s in blade.sections])
-        sections = np.array(
-            [
-                (s.chord, s.thickness, *np.deg2rad((s.camber, s.stagger)), s.sweep, s.lean)
-                for s in blade.sections
-            ]
-        )
+        names = ("chord", "thickness", "camber", "stagger", "sweep", "lean")
+        sections = np.array([[getattr(section, name) for name in names] for section in blade.sections])
+        sections[:, 2:4] = np.deg2rad(sections[:, 2:4])
         return cls(blade.hub_radius, blade.length, float(np.deg2rad(blade.tip_cone)), span, sections)
 
     def section(self, zeta: np.ndarray) -> np.ndarray:

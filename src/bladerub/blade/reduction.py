@@ -162,12 +162,10 @@ def reduce(blade: DiscreteBlade, config: BladeSpec) -> BuiltBlade:
     phi = transformation(fits, blade.mass, partition, eta, rank_tolerance, blade.at_rest)
     recovery = np.stack([full(column) for column in phi.T])  # eq. (6)
     radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.layout.tip_cone)
-    k0, k1, k2, *higher = speed_law([project(stiffness, phi) for stiffness in fits], f_max)  # eqs. (3), (6)
+    coefficients = speed_law([project(stiffness, phi) for stiffness in fits], f_max)  # eqs. (3), (6)
     reduced = ReducedBlade(
         project(blade.mass, phi),  # eq. (6)
-        k0,
-        k1,
-        k2,
+        *coefficients[:3],
         node_position=mesh.mesh.points[mesh.interface],
         radial_direction=radial,
         tangential_direction=tangential,
@@ -176,7 +174,7 @@ def reduce(blade: DiscreteBlade, config: BladeSpec) -> BuiltBlade:
         eta=eta,
         rank_tolerance=rank_tolerance,
         length=config.blade.length,
-        stiffness_higher=tuple(higher),
+        stiffness_higher=coefficients[3:],
         tip_slope=tip_slope(mesh, recovery, radial, tangential),
     )
     highest = reduced_frequencies(reduced, f_max)[-1]

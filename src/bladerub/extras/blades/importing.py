@@ -66,15 +66,11 @@ def _import_mesh(source: Source, n_interface: int) -> Imported:
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
     interface = tip.interface(mesh.points, tip_faces, frame.downstream_x, n_interface)
+    blade = measured(BladeMesh(mesh, root, tip_nodes, interface.nodes), frame, source.tip_cone)
     return Imported(
-        measured(BladeMesh(mesh, root, tip_nodes, interface.nodes), frame, source.tip_cone),
-        is_raised=content.is_raised,
+        *(blade, ratio, volume, interface.chord, interface.offset, content.is_raised),
         n_unused=len(content.points) - places.size,
         node_sets={name: nodes.size for name, nodes in content.node_sets.items()},
-        jacobian_ratio=ratio,
-        volume=volume,
-        chord=interface.chord,
-        interface_offset=interface.offset,
     )
 
 

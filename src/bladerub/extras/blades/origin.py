@@ -72,12 +72,8 @@ def conversion(path: Path, suffix: str) -> str:
 def check_file(path: Path) -> None:
     """Check the name of a mesh or table, and that it is there; a ValueError says what is wrong."""
     if path.suffix.lower() not in (*MESH_SUFFIXES, *TABLE_SUFFIXES):
-        suffix = path.suffix.lower()
-        cure = (
-            f": {conversion(path, suffix)}"
-            if suffix in {*package("meshio", "mesh").extension_to_filetypes, *_BY_GMSH}
-            else ""
-        )
+        suffix, convertible = path.suffix.lower(), package("meshio", "mesh").extension_to_filetypes
+        cure = f": {conversion(path, suffix)}" if suffix in {*convertible, *_BY_GMSH} else ""
         raise ValueError(
             f"must be a mesh file that ends in {', '.join(MESH_SUFFIXES)}, or a table of sections in "
             f"{', '.join(TABLE_SUFFIXES)}{cure}"
