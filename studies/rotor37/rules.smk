@@ -6,7 +6,14 @@ from bladerub.study.grid import coating_cases
 ROTOR37 = f"{RESULTS}/rotor37"
 REFERENCE_BLADE = f"{ROTOR37}/reference/blade/reduced_model.h5"
 REFERENCE_TABLES = ["blade", "direct", "interaction", "coatings"]
-ROTOR37_FIGURES = ["response", "direct", "spectrum_rigid", "spectrum_coated", "wear_straight", "wear_inclined"]
+ROTOR37_FIGURES = [
+    "response",
+    "direct",
+    "spectrum_rigid",
+    "spectrum_coated",
+    "wear_straight",
+    "wear_inclined",
+]
 
 
 @cache

@@ -10,7 +10,7 @@ from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
 from bladerub.blade.model import N_INTERFACE
 from bladerub.blade.surface import EDGES, boundary_faces, normals
-from bladerub.extras.blades import element_quality, mesh_file, origin, section_blade, tip
+from bladerub.extras.blades import element_quality, mesh_file, origin, profile, section_blade
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.section_profile import Profile
 from bladerub.extras.blades.settings import Source
@@ -65,7 +65,7 @@ def _import_mesh(source: Source, n_interface: int) -> Imported:
     tip_faces = faces[np.isin(faces, tip_nodes).all(axis=1)]
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
-    interface = tip.interface(mesh.points, tip_faces, frame.downstream_x, n_interface)
+    interface = profile.interface(mesh.points, tip_faces, frame.downstream_x, n_interface)
     blade = measured(BladeMesh(mesh, root, tip_nodes, interface.nodes), frame, source.tip_cone)
     return Imported(
         *(blade, ratio, volume, interface.chord, interface.offset, content.is_raised),
@@ -159,7 +159,7 @@ def measured(mesh: BladeMesh, frame: Frame, tip_cone: float | None) -> MeshedBla
     """
     points = mesh.mesh.points
     radius = np.hypot(points[:, 1], points[:, 2])
-    cone = tip.cone(points[mesh.tip], tip_cone, frame.downstream_x)
+    cone = profile.cone(points[mesh.tip], tip_cone, frame.downstream_x)
     lowest = radius[mesh.root].mean() if mesh.root.size else radius.min()
     length = float(radius[mesh.tip].mean() - lowest)
     if mesh.root.size:

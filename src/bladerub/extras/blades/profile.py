@@ -1,7 +1,12 @@
-"""Profiles in the plane: the camber line between their two sides, and where lines meet them."""
+"""Profiles in the plane, their camber lines, and the interface nodes on that of the tip of a blade."""
+
+from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import linear_sum_assignment
 from scipy.spatial.distance import cdist
+
+from bladerub.blade.model import N_INTERFACE
 
 _STATIONS = np.linspace(0.06, 0.94, 45)  # of the chord; further out the normal may meet the edge itself
 _DEGREE = 5
@@ -68,3 +73,71 @@ def crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> t
     share = start / (start - stop)
     places = (1 - share)[:, None] * ends[met, 0] + share[:, None] * ends[met, 1]
     return places @ direction / (direction @ direction), np.flatnonzero(met) + share
+
+
+class Interface(NamedTuple):
+    """Interface nodes of a tip."""
+
+    nodes: np.ndarray  # (8,), leading to trailing edge
+    chord: float  # length of the camber line, m
+    offset: float  # largest distance of a node from its place on the camber line, m
+
+
+def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
+    """Half angle (rad) of the cone that the tip lies on, positive where it widens with x.
+
+    It is fitted to the `points` (n, 3) of the tip unless given in `degrees`, positive where the cone widens
+    downstream; `downstream_x` is 1 where x points downstream, else -1.
+    """
+    if degrees is not None:
+        return downstream_x * float(np.deg2rad(degrees))
+    radius = np.hypot(points[:, 1], points[:, 2])
+    x = points[:, 0] - points[:, 0].mean()
+    return float(np.arctan2(x @ (radius - radius.mean()), x @ x))
+
+
+def interface(
+    points: np.ndarray, faces: np.ndarray, downstream_x: int, n_nodes: int = N_INTERFACE
+) -> Interface:
+    """Choose `n_nodes` interface nodes, evenly by arc length along the camber line of the tip.
+
+    The tip, the `faces` of the mesh there, is unrolled about the engine axis. The leading edge has the
+    smaller x where `downstream_x` is 1, else the larger. A ValueError says if the tip is no profile with two
+    sides and so many nodes, or too coarse.
+    """
+    nodes = np.unique(faces)
+    if nodes.size < n_nodes:
+        raise ValueError(f"the tip has {nodes.size} nodes; must have {n_nodes} or more")
+    flat = _unrolled(points, *points[nodes, 1:].mean(axis=0))
+    try:
+        line = camber_line(flat[_outline(faces)])
+    except ValueError as error:
+        raise ValueError(f"the tip is {error}; name its node set") from error
+    if downstream_x * (line[-1, 0] - line[0, 0]) < 0:
+        line = line[::-1]
+    arc = arc_length(line)
+    evenly = np.linspace(0, arc[-1], n_nodes)
+    targets = np.stack([np.interp(evenly, arc, line[:, axis]) for axis in range(2)], axis=1)
+    distance = cdist(targets, flat[nodes])
+    indices = linear_sum_assignment(distance**2)[1]
+    offset = distance[np.arange(n_nodes), indices].max()
+    if offset > arc[-1] / (2 * (n_nodes - 1)):
+        raise ValueError(
+            f"the tip is too coarse: an interface node would be {offset:.3g} m off its place on a camber "
+            f"line of {arc[-1]:.3g} m"
+        )
+    return Interface(nodes[indices], float(arc[-1]), float(offset))
+
+
+def _unrolled(points: np.ndarray, y: float, z: float) -> np.ndarray:
+    """Axial position and arc length about the engine axis (n, 2) of `points` (n, 3), from `y`, `z` on."""
+    radius = np.hypot(points[:, 1], points[:, 2])
+    phi = np.arctan2(points[:, 1] * z - points[:, 2] * y, points[:, 2] * z + points[:, 1] * y)
+    return np.stack([points[:, 0], radius * phi], axis=1)
+
+
+def _outline(faces: np.ndarray) -> np.ndarray:
+    """List the ends (n, 2) of the pieces of edges that belong to one of `faces` only."""
+    pieces = np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2)
+    _, first, count = np.unique(np.sort(pieces, axis=1), axis=0, return_index=True, return_counts=True)
+    return pieces[first[count == 1]]

@@ -12,9 +12,9 @@ from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import boundary_faces
 from bladerub.extras.blades.frame import AXES, Frame
 from bladerub.extras.blades.importing import facing, import_blade
+from bladerub.extras.blades.profile import interface
 from bladerub.extras.blades.report import mesh_report
 from bladerub.extras.blades.settings import Source
-from bladerub.extras.blades.tip import interface
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import BladeSpec, Mesh
