@@ -12,12 +12,12 @@ _AMPLITUDE = "rest_mu0.15.amplitude"
 
 def numbers(tables):
     """Return the text for each name on the page."""
-    blade, direct, interaction, coatings, independent, nlstep = (
-        tables[f"benchmarks/rotor37/{name}"]
-        for name in ("blade", "direct", "interaction", "coatings", "independent", "nlstep")
+    blade, direct, interaction, coatings = (
+        tables[f"benchmarks/rotor37/{name}"].set_index("number")
+        for name in ("blade", "direct", "interaction", "coatings")
     )
-    blade = blade.set_index("number")
-    friction = rows(direct, number=_AMPLITUDE).iloc[0]
+    independent, nlstep = (tables[f"benchmarks/rotor37/{name}"] for name in ("independent", "nlstep"))
+    friction = direct.loc[_AMPLITUDE]
     nlstep_error = rows(nlstep, number=_AMPLITUDE)["value"] / friction["value"] - 1
     return (
         {
@@ -28,12 +28,12 @@ def numbers(tables):
             "frequencies": _frequencies(blade),
             "lean_leading_edge": fixed(blade.loc["lean_leading_edge", "value"], 2),
             "lean_trailing_edge": fixed(blade.loc["lean_trailing_edge", "value"], 2),
-            "direct": _direct(direct.set_index("number")),
-            "nlstep": _nlstep(nlstep, direct.set_index("number")["value"]),
+            "direct": _direct(direct),
+            "nlstep": _nlstep(nlstep, direct["value"]),
             "nlstep_error": percent(nlstep_error.abs().max(), 1),
             "direct_uncertainty": percent(friction["uncertainty"] / friction["value"], 1),
-            "rigid_peaks": _rigid_peaks(interaction.set_index("number")),
-            "coatings": _coatings(coatings.set_index("number")),
+            "rigid_peaks": _rigid_peaks(interaction),
+            "coatings": _coatings(coatings),
         }
         | _independent(independent, direct)
         | _nodes(tables["rotor37_more_nodes"])
@@ -73,7 +73,7 @@ def _direct(direct):
 
 def _independent(independent, direct):
     amplitudes = rows(independent, number="rest_mu0.amplitude")
-    direct_amplitude = row(direct, number="rest_mu0.amplitude")["value"]
+    direct_amplitude = direct.loc["rest_mu0.amplitude", "value"]
     all_modes = independent["modes"].max()
 
     def amplitude(treatment, modes=all_modes, steps=20):

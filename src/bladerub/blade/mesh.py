@@ -194,8 +194,3 @@ class MeshedBlade:
     mesh: BladeMesh  # in the frame of `bladerub.blade.geometry`
     tip_cone: float  # half angle of the flow path at the tip, rad; positive where it widens with x
     length: float  # from root to tip, m
-
-    @property
-    def lean(self) -> float:
-        """Angle about the engine axis from the radial axis to the middle of the blade, rad."""
-        return float(np.arctan2(*self.mesh.mesh.points.mean(axis=0)[1:]))

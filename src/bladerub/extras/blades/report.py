@@ -167,14 +167,15 @@ def _extents(points: np.ndarray) -> dict[str, list[float]]:
     return {name: [float(value.min()), float(value.max())] for name, value in values.items()}
 
 
-def _warn_of_frame(figures: dict[str, Any], source: Source, lean: float) -> Iterator[str]:
-    """Warn of a wrong unit or wrong axes; the middle of the blade is `lean` (rad) off its radial axis."""
+def _warn_of_frame(figures: dict[str, Any], source: Source, points: np.ndarray) -> Iterator[str]:
+    """Warn of a wrong unit or wrong axes by the figures of a blade and its nodes (n, 3)."""
     frame, stagger = origin.frame(source), figures["tip_stagger_degrees"]
+    lean = np.rad2deg(np.arctan2(*points.mean(axis=0)[1:]))
     if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
         yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
-    if abs(lean) > np.deg2rad(LARGEST_LEAN):
+    if abs(lean) > LARGEST_LEAN:
         yield (
-            f"its middle is {np.rad2deg(lean):.3g} degrees about the engine axis from the radial axis "
+            f"its middle is {lean:.3g} degrees about the engine axis from the radial axis "
             f"{frame.radial}: is that the right axis, and is the origin on the engine axis?"
         )
     if stagger < LEAST_STAGGER:
@@ -211,7 +212,7 @@ def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
 
 
 def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
-    yield from _warn_of_frame(figures, source, imported.blade.lean)
+    yield from _warn_of_frame(figures, source, imported.blade.mesh.mesh.points)
     yield from _warn_of_proportions(figures)
     n_elements, offset = figures["elements_root_to_tip"], figures["interface_offset"]
     if imported.is_raised:
@@ -235,8 +236,9 @@ def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -
 
 
 def _warn_of_matrices(figures: dict[str, Any], imported: ImportedMatrices, source: Source) -> Iterator[str]:
-    yield from _warn_of_frame(figures, source, imported.blade.layout.lean)
-    box = np.prod(np.ptp(imported.blade.layout.mesh.mesh.points, axis=0))
+    points = imported.blade.layout.mesh.mesh.points
+    yield from _warn_of_frame(figures, source, points)
+    box = np.prod(np.ptp(points, axis=0))
     if not DENSITIES[0] * box <= figures["mass"] <= DENSITIES[1] * box:
         yield (
             f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are the matrices in "
