@@ -13,9 +13,7 @@ from bladerub.settings.study import Config
 def keep(blade: BuiltBlade, config: Config) -> None:
     """Keep the blade of `config` for its study, which builds it itself where it cannot be written."""
     with suppress(OSError):
-        path = kept_at(config)
-        if not is_built(config, path):
-            built.write(blade, provenance(config.plain()), path)
+        built.write(blade, provenance(config.plain()), kept_at(config))
 
 
 def kept(config: Config) -> BuiltBlade | None:
