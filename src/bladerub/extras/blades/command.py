@@ -209,10 +209,8 @@ def _of_matrices(figures: dict[str, Any]) -> dict[str, str]:
 def _in_words(figures: dict[str, Any]) -> str:
     from bladerub.blade.accuracy import percent
 
-    size, length = (
-        f"{figures['nodes']} nodes, {figures['unknowns']} unknowns",
-        f"{1e3 * figures['length']:.4g} mm",
-    )
+    size = f"{figures['nodes']} nodes, {figures['unknowns']} unknowns"
+    length = f"{1e3 * figures['length']:.4g} mm"
     if "elements" in figures:
         rows = {
             "mesh": f"{figures['elements']} {figures['element']}, {size}, {figures['elements_root_to_tip']} "
@@ -234,7 +232,10 @@ def _in_words(figures: dict[str, Any]) -> str:
         else f"eq. (2) is up to {percent(max(figures['error_eq2'][:6]))} % off"
     )
     stagger, lean = figures["tip_stagger_degrees"], figures["tip_lean"]
-    crossings = [f"eo({crossing['order']}) {crossing['rpm']:.0f}" for crossing in figures["crossings"]]
+    crossings = ", ".join(
+        f"eo({crossing['order']}) {crossing['rpm']:.0f}" for crossing in figures["crossings"]
+    )
+    crossings = f", 1/min: {crossings}" if crossings else ": none within reduction.f_omega_max"
     rows |= {
         "first frequency": f"{figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
         f"{figures['f_omega_max']:g}{moved}",
@@ -244,9 +245,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         f"{'ahead' if stagger >= 0 else 'behind'} in rotation",
         "first mode": f"u_r/u_t at the tip {lean[0]:.3f} at the leading edge, {lean[-1]:.3f} at the trailing "
         "edge",
-        "crossings": "of mode 1, 1/min: " + ", ".join(crossings)
-        if crossings
-        else "of mode 1: none within reduction.f_omega_max",
+        "crossings": f"of mode 1{crossings}",
         "tip stiffness": f"{figures['tip_stiffness']:.4g} N/m, static",
     }
     if figures["nominal_speed"]:

@@ -47,12 +47,11 @@ class MeshFile:
     is_raised: bool  # whether elements of 8 or 4 nodes got nodes in the middle of their edges
 
 
-def read(path: str | Path) -> MeshFile:
+def read(path: Path) -> MeshFile:
     """Read the mesh at `path`; a ValueError says why it cannot be used.
 
     Elements of 8 and 4 nodes, far too stiff in bending, become such of 20 and 10 with straight edges.
     """
-    path = Path(path)
     origin.check_file(path)
     _check_start(path)
     _check_end(path)

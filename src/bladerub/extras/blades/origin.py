@@ -5,15 +5,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput, is_refused
 from bladerub.io.folders import study_folder
 from bladerub.io.optional import package
-
-if TYPE_CHECKING:
-    from bladerub.extras.blades import settings
 
 MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
 """N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
@@ -28,22 +26,22 @@ _OF_MESHES, _OF_TABLES = ("root_set", "tip_set"), ("angle_unit",)
 _KEYS = {"matrices": ("matrix_units", "omega_max"), "file": (*_OF_MESHES, *_OF_TABLES)}
 
 
-def path(source: "settings.Source") -> Path:
+def path(source: Source) -> Path:
     """Return the file or folder of the ``blade.source`` block of a config, which names it from the study."""
     return study_folder() / (source.matrices or source.file)
 
 
-def frame(source: "settings.Source") -> Frame:
+def frame(source: Source) -> Frame:
     """Return unit and axes of a source; raises ValueError as `Frame`."""
     return Frame(**{key: value for key, value in source.plain().items() if key in _OF_FRAME})
 
 
-def is_table(source: "settings.Source") -> bool:
+def is_table(source: Source) -> bool:
     """Return whether it is a table of sections, which is meshed here, by ``blade.mesh`` of the config."""
     return not source.matrices and Path(source.file).suffix.lower() in TABLE_SUFFIXES
 
 
-def check(source: "settings.Source") -> None:
+def check(source: Source) -> None:
     """Check that the keys of a source go together; a ValueError begins with the key of what does not."""
     keys = source.plain()
     place = next((key for key in _KEYS if key in keys), None)
@@ -55,7 +53,7 @@ def check(source: "settings.Source") -> None:
     frame(source)
     kind, others = ("mesh", _OF_MESHES) if is_table(source) else ("table of sections", _OF_TABLES)
     for key in others:
-        if key in keys and place == "file":
+        if key in keys:
             raise ValueError(f"{key} = {keys[key]}: goes with a {kind}, not with {path(source).name}")
 
 

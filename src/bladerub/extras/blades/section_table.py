@@ -37,9 +37,9 @@ class Section:
     points: np.ndarray = field(repr=False)  # (2, n, 3), both sides from the leading edge, blade's frame, m
 
 
-def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
+def read(path: Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
     """Read the sections of a table in the order of the file; a ValueError names a line or section."""
-    table, form = read_cells(Path(path))
+    table, form = read_cells(path)
     numbers = {name: table.numbers(name) for name in form}
     names, lines = table.column("section"), np.array([*table.rows])
     if "" in names:
