@@ -40,8 +40,8 @@ def read(path: Path) -> Content:
     cells: dict[str, list[list[int]]] = {}
     for number, kind in model.kinds.items():
         cells.setdefault(kind, []).append([model.rows[node] for node in model.nodes[number]])
-    node_sets, volume_sets = dict(model.node_sets), []
-    for name, numbers in model.element_sets.items():
+    node_sets, volume_sets = {name: numbers for name, _, numbers in model.node_sets.values()}, []
+    for name, _, numbers in model.element_sets.values():
         if model.kinds.keys() & numbers.keys():
             volume_sets.append(name)
         else:
@@ -73,27 +73,21 @@ def _check(blocks: list[Block]) -> None:
             raise ValueError(f"{places[1]}: has another {keyword}; must be the mesh of one part")
 
 
-class _Sets(dict[str, dict[int, None]]):
-    """Numbers in each set, by its first name; capital and small letters are alike, blocks of one add up."""
-
-    def __init__(self):
-        super().__init__()
-        self._names: dict[str, tuple[str, bool]] = {}
+class _Sets(dict[str, tuple[str, bool, dict[int, None]]]):
+    """Sets by their names in capitals: name as first written, whether in the part, and numbers."""
 
     def add(self, name: str, numbers: Iterable[int], in_part: bool, place: str) -> None:
-        first, first_in_part = self._names.setdefault(name.upper(), (name, in_part))
+        """Add `numbers` to the set `name`, whose blocks add up."""
+        _, first_in_part, members = self.setdefault(name.upper(), (name, in_part, {}))
         if first_in_part != in_part:
             raise ValueError(f"{place}: a set {name} is in the part as well; must have another name")
-        self.setdefault(first, {}).update(dict.fromkeys(numbers))
-
-    def has(self, name: str) -> bool:
-        return name.upper() in self._names
+        members.update(dict.fromkeys(numbers))
 
     def members(self, name: str, place: str) -> dict[int, None]:
         """Numbers in the set `name`, which may have the name of its instance before a point."""
         for key in (name.upper(), name.upper().rpartition(".")[2]):
-            if key in self._names:
-                return self[self._names[key][0]]
+            if key in self:
+                return self[key][2]
         raise ValueError(f"{place}: there is no set {name} above this line")
 
 
@@ -181,7 +175,7 @@ class _Model:
                 places = FACES[_QUADRATIC[len(corners)]][int(face[1]) - 1]
                 nodes.update(dict.fromkeys(corners[place] for place in places if place < len(corners)))
         name = _name(block, "NAME")
-        if not self.node_sets.has(name):
+        if name.upper() not in self.node_sets:
             self.node_sets.add(name, nodes, in_part, block.place)
 
 

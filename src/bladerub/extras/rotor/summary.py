@@ -1,6 +1,5 @@
 """Tables of rows: what each draw did, and the distribution over the draws of a combination."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -28,9 +27,8 @@ DRAWS += ["divergent", "energy_residual"]
 COLUMNS = [*WHAT, "rows", "unbounded_rows", "divergent_rows"]
 _MEASURED = ("row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share")
 _MEASURED += ("wear_harmonic_share",)
-COLUMNS += [
-    f"{name}_{statistic}" for name in _MEASURED for statistic in ("median", "low", "high", "p05", "p95")
-]
+_STATISTICS = ("median", "low", "high", "p05", "p95")
+COLUMNS += [f"{name}_{statistic}" for name in _MEASURED for statistic in _STATISTICS]
 COLUMNS += ["wear_harmonic", "wear_harmonic_rows", "lobes_lowest", "lobes_highest", "energy_residual"]
 """Columns of the table of combinations."""
 
@@ -104,8 +102,8 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
             "energy_residual": float(of_what["energy_residual"].max()),
         }
         for name in _MEASURED:
-            quantiles = _quantiles(of_what[name].dropna().to_numpy())
-            row |= {f"{name}_{statistic}": value for statistic, value in quantiles.items()}
+            values = zip(_STATISTICS, _statistics(of_what[name].dropna().to_numpy()), strict=True)
+            row |= {f"{name}_{statistic}": value for statistic, value in values}
         rows.append(row)
     return pd.DataFrame(rows, columns=COLUMNS)
 
@@ -116,15 +114,15 @@ def first_half(table: pd.DataFrame) -> pd.DataFrame:
     return table[(n > 1) & (table["draw"] < n // 2)]
 
 
-def _quantiles(values: np.ndarray) -> Mapping[str, float]:
+def _statistics(values: np.ndarray) -> tuple[float, ...]:
     """Give the median with its interval between order statistics (sign test), and quantiles; NaN if empty."""
     if not values.size:
-        return dict.fromkeys(("median", "low", "high", "p05", "p95"), np.nan)
+        return (np.nan,) * len(_STATISTICS)
     ordered, n = np.sort(values), values.size
     first = int(binom.ppf(0.025, n, 0.5))
-    interval = (ordered[first - 1], ordered[n - first]) if first > 0 else (np.nan, np.nan)
-    quantiles = np.quantile(ordered, (0.5, 0.05, 0.95))
-    return dict(zip(("median", "p05", "p95", "low", "high"), (*quantiles, *interval), strict=True))
+    low, high = (ordered[first - 1], ordered[n - first]) if first > 0 else (np.nan, np.nan)
+    median, p05, p95 = np.quantile(ordered, (0.5, 0.05, 0.95))
+    return median, low, high, p05, p95
 
 
 def label(combination: Combination) -> str:
