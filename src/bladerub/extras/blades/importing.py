@@ -65,13 +65,11 @@ def _import_mesh(source: Source, n_interface: int) -> Imported:
     tip_faces = faces[np.isin(faces, tip_nodes).all(axis=1)]
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
-    interface = profile.interface(mesh.points, tip_faces, frame.downstream_x, n_interface)
-    blade = measured(BladeMesh(mesh, root, tip_nodes, interface.nodes), frame, source.tip_cone)
-    return Imported(
-        *(blade, ratio, volume, interface.chord, interface.offset, content.is_raised),
-        n_unused=len(content.points) - places.size,
-        node_sets={name: nodes.size for name, nodes in content.node_sets.items()},
-    )
+    interface, chord, offset = profile.interface(mesh.points, tip_faces, frame.downstream_x, n_interface)
+    blade = measured(BladeMesh(mesh, root, tip_nodes, interface), frame, source.tip_cone)
+    n_unused = len(content.points) - places.size
+    node_sets = {name: nodes.size for name, nodes in content.node_sets.items()}
+    return Imported(blade, ratio, volume, chord, offset, content.is_raised, n_unused, node_sets)
 
 
 def _nodes(content, points, faces, places, name: str | None, is_tip: bool) -> np.ndarray:

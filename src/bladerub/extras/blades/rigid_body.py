@@ -6,6 +6,7 @@ Translations show whether the coordinates are x, y, z node by node, rotations wh
 ``nodes.csv`` has them.
 """
 
+from collections.abc import Callable
 from itertools import permutations, product
 
 import numpy as np
@@ -44,10 +45,7 @@ def check_mass(mass: sparse.csc_array, rows: np.ndarray) -> None:
 
     `rows` (n,) of ``nodes.csv``, from 1, are those of the nodes of the matrix (3n, 3n).
     """
-    bad = _unequal(mass)
-    if bad.any():
-        hint = _direction_hint(not _unequal(_node_by_node(mass)).any())
-        raise ValueError(f"differs by direction, or acts between directions, at {_named(rows[bad])}; {hint}")
+    _check_coordinates(mass, _unequal, rows, "differs by direction, or acts between directions,")
 
 
 def check_same_nodes(mass: sparse.csc_array, stiffness: sparse.csc_array, rows: np.ndarray) -> None:
@@ -98,13 +96,8 @@ def check_stiffness(
             is_away |= cKDTree(clamped).query(points)[0] > _NEAR * _reach(pairs, points)
         return held & is_away
 
-    bad = away(stiffness)
-    if bad.any():
-        hint = _direction_hint(not away(_node_by_node(stiffness)).any())
-        raise ValueError(
-            "a translation of the rigid blade leaves forces away from clamped nodes, at "
-            f"{_named(rows[bad])}; {hint}"
-        )
+    fault = "a translation of the rigid blade leaves forces away from clamped nodes,"
+    _check_coordinates(stiffness, away, rows, fault)
 
 
 def check_places(stiffness: sparse.csc_array, points: np.ndarray, rows: np.ndarray, turn: np.ndarray) -> None:
@@ -214,15 +207,21 @@ def _unequal(mass: sparse.csc_array) -> np.ndarray:
     return (off > _UNEQUAL * pairs.sum(axis=1)) & (np.diff(pairs.indptr) < max(len(off), 2))
 
 
-def _node_by_node(matrix: sparse.csc_array) -> sparse.csc_array:
-    """Reorder a matrix that has all x, then all y, then all z."""
-    order = np.arange(matrix.shape[0]).reshape(3, -1).T.ravel()
-    return matrix[order][:, order]
-
-
-def _direction_hint(is_by_direction: bool) -> str:
-    has = "it has all x, then all y, then all z" if is_by_direction else "are coordinates exchanged?"
-    return f"must have x, y, z node by node, in the axes of nodes.csv: {has}"
+def _check_coordinates(
+    matrix: sparse.csc_array,
+    is_bad: Callable[[sparse.csc_array], np.ndarray],
+    rows: np.ndarray,
+    fault: str,
+) -> None:
+    """Raise ValueError of the `fault` of bad nodes; it says whether all x come first, then all y, then all z."""
+    bad = is_bad(matrix)
+    if bad.any():
+        order = np.arange(matrix.shape[0]).reshape(3, -1).T.ravel()  # from all x, then all y, then all z
+        is_by_direction = not is_bad(matrix[order][:, order]).any()
+        has = "it has all x, then all y, then all z" if is_by_direction else "are coordinates exchanged?"
+        raise ValueError(
+            f"{fault} at {_named(rows[bad])}; must have x, y, z node by node, in the axes of nodes.csv: {has}"
+        )
 
 
 def _named(rows: np.ndarray) -> str:
