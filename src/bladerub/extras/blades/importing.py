@@ -74,16 +74,14 @@ def _import_mesh(source: Source, n_interface: int) -> Imported:
 
 def _nodes(content, points, faces, places, name: str | None, is_tip: bool) -> np.ndarray:
     """Nodes of the mesh in the set `name` of the file, or found by the surface."""
-    part = "tip" if is_tip else "root"
     try:
         if name is None:
             return facing(points, faces, outwards=is_tip)
-        members = _with_middles(content, _named(content, name))
+        nodes = np.flatnonzero(np.isin(places, _with_middles(content, _named(content, name))))
+        if not nodes.size:
+            raise ValueError(f'no node of the set "{name}" is in an element')
     except ValueError as error:
-        raise ValueError(f"{part} not found: {error}") from error
-    nodes = np.flatnonzero(np.isin(places, members))
-    if not nodes.size:
-        raise ValueError(f'{part} not found: no node of the set "{name}" is in an element')
+        raise ValueError(f"{'tip' if is_tip else 'root'} not found: {error}") from error
     return nodes
 
 

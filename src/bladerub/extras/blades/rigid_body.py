@@ -213,7 +213,7 @@ def _check_coordinates(
     rows: np.ndarray,
     fault: str,
 ) -> None:
-    """Raise ValueError of the `fault` of bad nodes; it says whether all x come first, then all y, then all z."""
+    """Raise ValueError of the `fault` of bad nodes; it says whether all x come first, then all y, all z."""
     bad = is_bad(matrix)
     if bad.any():
         order = np.arange(matrix.shape[0]).reshape(3, -1).T.ravel()  # from all x, then all y, then all z
