@@ -136,11 +136,10 @@ def check(blade: Blade, n_interface: int = N_INTERFACE) -> None:
     xi, eta, zeta = lattice(blade.mesh)
     shape = BladeShape.from_config(blade)
     jacobian = corner_jacobians(shape.points(xi[:, None, None], eta[None, :, None], zeta[None, None, :]))
-    lowest = jacobian.min(axis=(0, 1, 2))
     chord = shape.section(zeta)[0]  # below zero with the thickness, it leaves the determinant positive
-    inside_out = (lowest <= 0) | (chord[:-1] <= 0) | (chord[1:] <= 0)
-    if np.any(inside_out):
-        element = np.flatnonzero(inside_out)[0]
+    inside_out = (jacobian <= 0).any(axis=(0, 1, 2)) | (chord[:-1] <= 0) | (chord[1:] <= 0)
+    if inside_out.any():
+        element = np.argmax(inside_out)
         raise ValueError(
             f"blade.sections: mesh turned inside out at span {zeta[element]:.3g} to {zeta[element + 1]:.3g}; "
             "chord and thickness must stay above zero between the sections, and neighbours must not cross"
