@@ -2,7 +2,6 @@
 
 import logging
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
@@ -51,17 +50,12 @@ def speed_law(fits: Sequence, f_max: float) -> tuple:
     )
 
 
-@dataclass(frozen=True)
 class Partition:
-    """Free coordinates split into those of the interface, u_f, and the internal ones, u_i, of eq. (6)."""
+    """The n free coordinates split into those of the interface, u_f, and the internal ones, u_i, eq. (6)."""
 
-    interface: np.ndarray  # places in the free vector, node by node, x, y, z
-    internal: np.ndarray
-
-    @classmethod
-    def around(cls, interface: np.ndarray, n: int) -> "Partition":
-        """Take `interface` out of `n` coordinates."""
-        return cls(interface, np.setdiff1d(np.arange(n), interface))
+    def __init__(self, interface: np.ndarray, n: int):
+        self.interface = interface  # places in the free vector, node by node, x, y, z
+        self.internal = np.setdiff1d(np.arange(n), interface)
 
 
 def constraint_modes(stiffness: sparse.csc_array, partition: Partition, solve: Solve) -> np.ndarray:
@@ -156,7 +150,7 @@ def reduce(blade: DiscreteBlade, config: BladeSpec) -> BuiltBlade:
     mesh, full, reduction = blade.layout.mesh, blade.free.full, config.reduction
     f_max = reduction.f_omega_max
 
-    partition = Partition.around(blade.free.coordinates(mesh.interface), blade.mass.shape[0])
+    partition = Partition(blade.free.coordinates(mesh.interface), blade.mass.shape[0])
     fits = [blade.stiffness[f_omega] for f_omega in fit_speeds(f_max, reduction.fit_speeds or 3)]
     eta, rank_tolerance = reduction.modes_per_speed, reduction.rank_tolerance
     phi = transformation(fits, blade.mass, partition, eta, rank_tolerance, blade.at_rest)

@@ -18,7 +18,7 @@ def blocks(make_block):
     x, y, z = solid.mesh.points.T
     tip = np.flatnonzero(np.isclose(z, 0.6) & np.isclose(y, 0.005))
     ends = tip[np.argsort(x[tip])][[0, -1]]
-    partition = Partition.around(solid.coordinates(ends), solid.free.size)
+    partition = Partition(solid.coordinates(ends), solid.free.size)
     return fits, solid.mass, partition, transformation(fits, solid.mass, partition, ETA, 1e-8)
 
 
