@@ -47,7 +47,7 @@ class LogHandler(LogHandlerBase):
             if self._shows_all:
                 text = self._refusal(record) or self.format(record)
             elif self._is_shown(record):
-                text = self._explained(record) or self.format(record)
+                text = _failed_job(record) or self._refusal(record) or self.format(record)
             else:
                 text = self._progress(record)
         except Exception:
@@ -56,10 +56,6 @@ class LogHandler(LogHandlerBase):
         for line in text.splitlines():
             is_long = len(line) > LONGEST and not self._shows_all
             print(f"{line[: LONGEST - 1]}…" if is_long else line, file=self._stream)
-
-    def _explained(self, record: logging.LogRecord) -> str:
-        event = getattr(record, "event", None)
-        return _failed_job(record) if event == LogEvent.JOB_ERROR else self._refusal(record)
 
     def _refusal(self, record: logging.LogRecord) -> str:
         # Snakemake reads the files of --configfile before the Snakefile, and names none of them
@@ -73,11 +69,10 @@ class LogHandler(LogHandlerBase):
         self._is_interrupted |= _INTERRUPTED in message
         if any(text in message for text in _AGAIN) or (event == LogEvent.ERROR and _SAID_BY_JOB in message):
             return False
-        if self._is_interrupted and event in _SHOWN:  # Ctrl-C ends all jobs, none of them has failed
-            return False
-        if event in _SHOWN or record.levelno >= logging.WARNING:
-            return True
-        return event is None and message.startswith("Nothing to be done")
+        if event in _SHOWN:
+            return not self._is_interrupted  # Ctrl-C ends all jobs, none of them has failed
+        is_end = event is None and message.startswith("Nothing to be done")
+        return is_end or record.levelno >= logging.WARNING
 
     def _progress(self, record: logging.LogRecord) -> str:
         """Say what is planned, or that the last job of a stage is done."""
@@ -103,9 +98,11 @@ def _stage(rule: str) -> str:
 
 
 def _failed_job(record: logging.LogRecord) -> str:
-    """Say in a line which job failed, by the file that it did not make, and where its log is."""
+    """Say in a line which job failed, if one did, by the file that it did not make, and where its log is."""
+    if getattr(record, "event", None) != LogEvent.JOB_ERROR or not record.log:
+        return ""
     output = f" ({record.output[0]})" if record.output else ""
-    return f"{record.rule_name} failed{output}; log: {', '.join(record.log)}" if record.log else ""
+    return f"{record.rule_name} failed{output}; log: {', '.join(record.log)}"
 
 
 def _refused_config() -> str:

@@ -18,7 +18,7 @@ from bladerub.blade.build import build
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.config.read import read
 from bladerub.extras.blades.settings import Source
-from bladerub.extras.export.calculix import deck, frequencies, write_decks
+from bladerub.extras.export.calculix import deck, write_decks
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.stress.nodal import NodalStress, running_displacement, von_mises
 from bladerub.io.folders import ROOT
@@ -40,6 +40,12 @@ def config(paper_config):
 
 def calculix(folder, name):
     subprocess.run([CCX, "-i", name], cwd=folder, check=True, capture_output=True, timeout=300)
+
+
+def frequencies(dat):
+    """Frequencies (Hz) in the ``.dat`` file that CalculiX writes for a deck."""
+    rows = [line.split() for line in dat.read_text().splitlines()]
+    return np.array([float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()])
 
 
 def largest_differences(config, folder):

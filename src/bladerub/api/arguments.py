@@ -46,18 +46,17 @@ def over(*names: str) -> Callable[[Function], Function]:
 
         @wraps(function)
         def called(*args: Any, **kwargs: Any) -> Any:
-            bound = signature.bind(*args, **kwargs)
-            of_names = {name: value for name, value in bound.arguments.items() if name in names}
-            for name, value in of_names.items():
-                if isinstance(value, np.ndarray | np.generic):  # of no dimension: a number
-                    bound.arguments[name] = of_names[name] = value.tolist()
-            lists = {k: value for k, value in of_names.items() if isinstance(value, list | tuple | range)}
-            results = []
+            bound, results = signature.bind(*args, **kwargs), []
+            arguments = bound.arguments
+            for name, value in arguments.items():
+                if name in names and isinstance(value, np.ndarray | np.generic):
+                    arguments[name] = value.tolist()  # of no dimension: a number
+            lists = {k: v for k, v in arguments.items() if k in names and isinstance(v, list | tuple | range)}
             for values in product(*lists.values()):
-                bound.arguments.update(zip(lists, values, strict=True))
+                arguments.update(zip(lists, values, strict=True))
                 for name, kind in kinds.items():
-                    if not isinstance(bound.arguments[name], kind):
-                        raise InputError(name, bound.arguments[name], f"must be a {kind.__name__}")
+                    if not isinstance(arguments[name], kind):
+                        raise InputError(name, arguments[name], f"must be a {kind.__name__}")
                 results.append(function(*bound.args, **bound.kwargs))
             return results if lists else results[0]
 

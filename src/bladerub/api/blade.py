@@ -168,8 +168,7 @@ class Blade(Shown):
 
         `path` is to write it there as well. In the axes `ax`, which are returned, is the mesh as a whole.
         """
-        drawn = plots.blade_mesh.read_mesh(self.mesh_path)
-        return plots.blade_mesh.blade_mesh(*drawn, path=path, ax=ax)
+        return plots.blade_mesh.blade_mesh(*plots.blade_mesh.read_mesh(self.mesh_path), path=path, ax=ax)
 
     def plot_campbell(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw Fig. 2: the Campbell diagram; `path` as `plot_mesh`. Raises as `accuracy`.

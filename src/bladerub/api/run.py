@@ -1,7 +1,7 @@
 """The outcome of one run, simulated here or read from its file."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ from bladerub import plots, plugins
 from bladerub.api.arguments import InputError, over
 from bladerub.api.display import Shown
 from bladerub.api.study import settings_of
-from bladerub.contact.result import Energy
+from bladerub.contact.result import ENERGIES, Energy
 from bladerub.io.equality import equal
 from bladerub.io.hdf5 import Variable
 from bladerub.io.optional import package
@@ -145,8 +145,7 @@ class Run(Shown):
     @property
     def energy(self) -> Energy:
         """Energy ledger, J; ``energy.residual`` is what it misses, relative."""
-        names = (entry.name for entry in fields(Energy))
-        return Energy(**{name: float(self.stored.data[f"energy_{name}"]) for name in names})
+        return Energy(**{name: float(self.stored.data[f"energy_{name}"]) for name in ENERGIES})
 
     @property
     def radial_displacement(self) -> np.ndarray:

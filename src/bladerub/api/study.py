@@ -41,8 +41,10 @@ class Study(Shown):
     (63, [0.02, 0.4])
     >>> study.results.name
     'results'
-    >>> study.coating("2nd", E=2, K=0.5).name
-    '2nd_E2_K0.5_theta0'
+    >>> study.coating("2nd", E=1.1, K=0.5).name == study.coating("2nd", E="660 MPa", K="300 MPa").name
+    True
+    >>> study.coating("2nd", E=1.1, K=0.5, damping_ratio=1e-3).name
+    '2nd_E1.1_K0.5_theta0_xi0.001'
     >>> study.rigid("2nd", friction=0.1).name
     '2nd_rigid_mu0.1'
     >>> study.run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).spec.revolutions
@@ -147,16 +149,6 @@ class Study(Shown):
         ------
         InputError
             If a value is not possible; the message says which and what would be right.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> br.default_study().coating("2nd", E=1.1, K=0.5).name
-        '2nd_E1.1_K0.5_theta0'
-        >>> br.default_study().coating("2nd", E="660 MPa", K="300 MPa").name
-        '2nd_E1.1_K0.5_theta0'
-        >>> br.default_study().coating("2nd", E=1.1, K=0.5, damping_ratio=1e-3).name
-        '2nd_E1.1_K0.5_theta0_xi0.001'
         """
         if friction is not None and theta is not None:
             raise InputError("friction", friction, "goes without theta, which says the same")
@@ -280,7 +272,7 @@ def default_study() -> Study:
 
 def settings_of(*configs: Config | None) -> Config:
     """Return the first of the `configs` that there is, or that of the study at work."""
-    return next((config for config in configs if config is not None), None) or load_study().config
+    return next(filter(None, configs), None) or load_study().config
 
 
 def _found(path: str | Path) -> Path:

@@ -173,17 +173,21 @@ def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[s
     notes of it as well.
     """
     base = base_config()
-    made_with = None if options.config else _made_with(base)
+    if options.config:
+        return configuration.read_with_notes(base, *options.config)
+    settings = configuration.load(base)
+    results = settings.get("results")
+    made_with = record.read(study_folder() / results) if isinstance(results, str) else None
     if made_with is None:
-        config, notes = configuration.read_with_notes(base, *options.config)
-        if not options.config and (others := _other_results(config)):
+        config, notes = configuration.read_with_notes(base)
+        if others := _other_results(config):
             print(f"bladerub {options.name}: with {base}, without results; others: {others}", file=sys.stderr)
         return config, notes
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
     config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
     law = getattr(config.contact.plugged("law"), "file", None)
-    named_law = configuration.load(base)["contact"].get("law", {}).get("file")
+    named_law = settings["contact"].get("law", {}).get("file")
     if law not in (None, named_law) and not getattr(options, "trust", True):
         raise BadInput(
             f"{config.results}/{record.FILE} names the law {law}, a program that this would execute: "
@@ -196,12 +200,6 @@ def add_trust_to(parser: Parser) -> None:
     """Add ``--trust`` to the options of a command that simulates."""
     text = "execute the law that the record of the results folder names, which may be from somebody else"
     parser.add_argument("--trust", action="store_true", help=text)
-
-
-def _made_with(base: Path) -> record.Record | None:
-    """Read what was laid over the config in the file `base` for its results; None if nothing was."""
-    results = configuration.load(base).get("results")
-    return record.read(study_folder() / results) if isinstance(results, str) else None
 
 
 def _other_results(config: "Config") -> str:
@@ -219,16 +217,6 @@ def quantity(text: str) -> float | str:
     if units.read(text) is None:
         raise argparse.ArgumentTypeError(f"must be a number, or one with a unit: {text!r}")
     return text
-
-
-def convert(options: argparse.Namespace, *names: str, reference: units.Reference, section: str) -> None:
-    """Turn options with a unit, by their names in a section of the config, into plain numbers."""
-    from bladerub.config.quantities import number
-
-    for name in names:
-        typed = getattr(options, name)
-        with refused(ValueError, because=f"--{name.replace('_', '-')} = {format_value(typed)}: "):
-            setattr(options, name, number(f"{section}{name}", typed, reference))
 
 
 def blade_path(options: argparse.Namespace, config: "Config") -> Path:

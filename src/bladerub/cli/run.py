@@ -2,8 +2,8 @@
 
 import argparse
 import math
-import os
 import sys
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -23,21 +23,12 @@ if TYPE_CHECKING:  # as in `inputs`
 
 _QUANTITIES = ("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
-_UNITS = {
-    "E": "contact.modulus_unit",
-    "K": "contact.modulus_unit",
-    "theta": "rad",
-    "f_omega": "f1 at rest",
-    "modulus_unit": "Pa",
-    "displacement_over_length": "1",
-    "peak_amplitude": "m",
-    "max_wear": "m",
-    "growth_per_revolution": "1",
-    "rpm": "1/min",
-    "damping_ratio": "1",
-    "layer_thickness": "m",
-    "interference": "m",
-}
+_UNITS = (
+    {"theta": "rad", "f_omega": "f1 at rest", "modulus_unit": "Pa", "rpm": "1/min"}
+    | dict.fromkeys(("E", "K"), "contact.modulus_unit")
+    | dict.fromkeys(("peak_amplitude", "max_wear", "layer_thickness", "interference"), "m")
+    | dict.fromkeys(("displacement_over_length", "growth_per_revolution", "damping_ratio"), "1")
+)
 
 
 def add_to(commands: Any) -> None:
@@ -87,8 +78,6 @@ def _options() -> list[RunOption]:
 def run(options: argparse.Namespace) -> None:
     """Run the simulation that the command line asks for, and print its summary."""
     config = inputs.read_config(options)
-    with inputs.as_options():
-        values = _coating_values(options)
     if options.device:
         config = config.replaced("solver.device", options.device)
     for option in _options():
@@ -113,7 +102,7 @@ def run(options: argparse.Namespace) -> None:
     with inputs.as_options(f_omega="f", speed="f"):
         f_omega = blade.f_omega(speed) if blade else speed
         describe = study.rigid if options.coating == "rigid" else study.coating
-        planned = describe(options.casing, **values).at(f_omega, options.revolutions)
+        planned = describe(options.casing, **_coating_values(options)).at(f_omega, options.revolutions)
     fastest = config.reduction.f_omega_max
     if not blade and planned.f_omega > fastest:  # of a blade that may not be built yet
         typed = f" ({speed})" if isinstance(speed, str) else ""
@@ -191,17 +180,13 @@ def _figures(planned: "StudyRun", blade: "Blade", result: "Run") -> dict[str, An
 
 def _check_output(path: Path) -> None:
     """Check that a run can be written to `path`, and that nothing but a run is replaced."""
-    try:
-        os.lstat(path)
-    except (FileNotFoundError, NotADirectoryError):
-        inputs.require_writable("--output", path)
-        return
-    except OSError as error:
-        raise BadInput(f"--output {path}: cannot be written ({error.strerror})") from error
-    if path.is_dir():
-        raise BadInput(f"--output {path}: is a folder, must be a file")
-    if not _is_run(path):
-        raise BadInput(f"--output {path}: is there and is no run, must be a new file or a run to replace")
+    because = f"--output {path}: cannot be written: "
+    with refused(OSError, because=because), suppress(FileNotFoundError, NotADirectoryError):
+        path.lstat()
+        if path.is_dir():
+            raise BadInput(f"--output {path}: is a folder, must be a file")
+        if not _is_run(path):
+            raise BadInput(f"--output {path}: is there and is no run, must be a new file or a run to replace")
     inputs.require_writable("--output", path)
 
 
@@ -218,6 +203,11 @@ def _in_words(figures: dict[str, Any]) -> str:
     order = figures["engine_order"]
     duration = f", after {figures['growth_revolutions']} revolutions"
     harmonic, share = figures["wear_harmonic"], f"{100 * figures['wear_harmonic_share']:.0f}"
+    layer = {
+        f"largest {name.removeprefix('max_').replace('_', ' ')}": f"{figures[name]:.3g} {unit}, at the end"
+        for name, unit in figures["units"].items()
+        if name.startswith("max_") and name != "max_wear"
+    }
     rows = {
         "coating": _coating_in_words(figures),
         **({"law": law} if (law := figures["element_law"]) not in (None, "plastic") else {}),
@@ -228,7 +218,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         + inputs.large_in_words(figures["displacement_over_length"]),
         "engine order": "none" if order is None else f"{order:.4g}",
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
-        **_layer_in_words(figures),
+        **layer,
         "lobes": figures["lobes"],
         "strongest harmonic of the wear": f"{harmonic} ({share} % of the variance)" if harmonic else "none",
         "growth": _growth_in_words(figures),
@@ -245,16 +235,6 @@ def _in_words(figures: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _layer_in_words(figures: dict[str, Any]) -> dict[str, str]:
-    from bladerub.study.store import datasets
-
-    return {
-        f"largest {name.replace('_', ' ')}": f"{figures[f'max_{name}']:.3g} {unit}, at the end"
-        for name, (_, unit, _) in datasets().items()
-        if f"max_{name}" in figures and name != "wear"
-    }
-
-
 def _coating_in_words(figures: dict[str, Any]) -> str:
     """State the moduli in Pa, too."""
     if figures["modulus_unit"] is None:
@@ -264,12 +244,10 @@ def _coating_in_words(figures: dict[str, Any]) -> str:
 
 
 def _status_in_words(figures: dict[str, Any]) -> str:
-    status, revolutions, complete = (
-        figures[key] for key in ("status", "revolutions", "complete_revolutions")
-    )
+    status, revolutions = figures["status"], figures["revolutions"]
     if status == "completed":
         return f"{status}, {revolutions} revolutions"
-    return f"{status}, in revolution {complete + 1} of {revolutions}"
+    return f"{status}, in revolution {figures['complete_revolutions'] + 1} of {revolutions}"
 
 
 def _growth_in_words(figures: dict[str, Any]) -> str:

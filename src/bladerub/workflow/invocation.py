@@ -63,33 +63,29 @@ def rules_of_studies(repository: Path) -> tuple[list[Path], list[str]]:
     return complete, notes
 
 
-def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
-    """Say in a line which file of a manifest is lost or cut short, or that the manifest itself is damaged.
-
-    None if nothing is, or if there is no manifest. `kind` is that of its rows. Raises an `OSError` if the
-    manifest cannot be read.
-    """
-    try:
-        lost_files = [file.path for file in listed_files(manifest, kind) if file.is_lost()]
-    except FileNotFoundError:
-        return None
-    except DamagedFile as error:
-        return str(error)
-    return f"{lost_files[0]}: missing, or not as long as it was written" if lost_files else None
-
-
-def damage(path: str | Path) -> str | None:
-    """Say in a line that a file is not as it was written; None if it is, or if there is none.
+def damage(path: str | Path, check: Callable[[str | Path], Any] = checksum.is_sealed) -> str | None:
+    """Say in a line that a file is not as it was written, by `check`; None if it is, or if there is none.
 
     Raises an `OSError` if it cannot be read.
     """
     try:
-        checksum.is_sealed(path)
+        check(path)
     except FileNotFoundError:
         return None
     except DamagedFile as error:
         return str(error)
     return None
+
+
+def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
+    """Say as `damage` which file of a manifest, with rows of this kind, is lost or cut short."""
+
+    def check(manifest: str | Path) -> None:
+        for file in listed_files(manifest, kind):
+            if file.is_lost():
+                raise DamagedFile(f"{file.path}: missing, or not as long as it was written")
+
+    return damage(manifest, check)
 
 
 def replaces(
@@ -156,25 +152,24 @@ def start(workflow: Any) -> None:
     study, if the results are of another config and the command line names none: they would follow on all of
     that study. So it does where the jobs could not start.
     """
-    targets = set(workflow.dag_settings.targets) - {"all"}
-    for results, laid_over, _ in _planned:
-        if targets and (made_with := _made_with(results, laid_over)):
-            raise BadInput(
-                f"{' '.join(sorted(targets))}: add {made_with.as_arguments()}, as {results} was made, "
-                f"or --configfile {CONFIG} to compute that study first"
-            )
     if re.search(r"[\s'\"\\$`&;|<>()*?[\]!]", sys.executable):
         raise BadInput(
             f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the "
             "environment in a folder without spaces and special characters (that of the study may have them)"
         )
+    ((results, laid_over, begin),) = _planned
+    targets = set(workflow.dag_settings.targets) - {"all"}
+    if targets and (made_with := _made_with(results, laid_over)):
+        raise BadInput(
+            f"{' '.join(sorted(targets))}: add {made_with.as_arguments()}, as {results} was made, "
+            f"or --configfile {CONFIG} to compute that study first"
+        )
     for remedy in plugins.loaded("REMEDIES").values():
-        remedy.start(workflow, [results for results, *_ in _planned])
-    for results, laid_over, begin in _planned:
-        prepare(results)
-        record.write(results, laid_over.files, laid_over.command_line)
-        if workflow.local_exec:  # a job on another machine shares nothing with this process
-            begin()
+        remedy.start(workflow, [results])
+    prepare(results)
+    record.write(results, laid_over.files, laid_over.command_line)
+    if workflow.local_exec:  # a job on another machine shares nothing with this process
+        begin()
 
 
 def stopped() -> None:

@@ -61,9 +61,3 @@ def write_decks(folder: str | Path, f_omegas: Sequence[float], f1_hz: float, *bo
         with atomic.writing(path) as stream:
             stream.write(deck(*body, 2 * np.pi * f_omega * f1_hz))
     return list(paths)
-
-
-def frequencies(dat: str | Path) -> np.ndarray:
-    """Frequencies (Hz) in the ``.dat`` file that CalculiX writes for a deck."""
-    rows = [line.split() for line in Path(dat).read_text().splitlines()]
-    return np.array([float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()])

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from bladerub.api.blade import Blade
     from bladerub.blade.model import ReducedBlade
     from bladerub.extras.export.recording import Recording
-    from bladerub.extras.rows.spec import Row
     from bladerub.settings.study import Config
     from bladerub.study.plan import PlannedRun
     from bladerub.study.store import StoredRun
@@ -129,10 +128,11 @@ def _animation(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     run, plan, blade, _ = _run_of_file(options, config, "animation")
 
     from bladerub.extras.export.animation import animate
+    from bladerub.extras.rows.spec import Row
 
     recording = _record(options, run, plan, blade.reduced, all_revolutions=True)
     with refused(OSError, because=f"--animation {path}: cannot be written: "):
-        animate(path, recording, blade.reduced, _row(plan), run.attributes)
+        animate(path, recording, blade.reduced, plan.row or Row.even(1), run.attributes)
     blades, revolutions = recording.revolution_peak.shape
     return {
         "animation": str(path),
@@ -179,12 +179,6 @@ def _run_of_file(
     return run, plan, blade, config
 
 
-def _row(plan: "PlannedRun") -> "Row":
-    from bladerub.extras.rows.spec import Row
-
-    return plan.row or Row.even(1)
-
-
 def _record(
     options: argparse.Namespace,
     run: "StoredRun",
@@ -209,9 +203,7 @@ def _record(
     compile_kernel(plan.spec.turns, blade.n_interface, plan.spec.coating.element_law)
     with inputs.progress_bar(last, "rev") as bar:
         elements = (before * n_elements + instants).tolist()
-        recording = record(
-            blade, plan.spec, _row(plan), elements, progress=lambda done: bar.update(done - bar.n)
-        )
+        recording = record(blade, plan.spec, plan.row, elements, lambda done: bar.update(done - bar.n))
     blade_index = run.attributes.get("blade", 1) - 1  # whose peaks are stored
     stored = run.data["revolution_peak"][:last]
     difference = np.max(np.abs(recording.revolution_peak[blade_index] - stored))
@@ -233,17 +225,15 @@ def _in_words(figures: dict[str, Any]) -> str:
             f"largest principal stress {figures['largest_principal'] / 1e6:.4g} MPa"
         )
     several = f" of {figures['blades']} blades" if figures["blades"] > 1 else ""
-    return "\n".join(
-        [
-            f"{figures['samples']} instants of revolution {figures['revolution']}, "
-            f"{figures['nodes']} nodes, {figures['elements']} elements{several}, "
-            f"{figures['bytes'] / 1e6:.3g} MB",
-            f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm"
-            + inputs.large_in_words(figures["displacement_over_length"]),
-            stress,
-            f"open {figures['collection']} in ParaView",
-        ]
-    )
+    large = inputs.large_in_words(figures["displacement_over_length"])
+    lines = [
+        f"{figures['samples']} instants of revolution {figures['revolution']}, {figures['nodes']} nodes, "
+        f"{figures['elements']} elements{several}, {figures['bytes'] / 1e6:.3g} MB",
+        f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm{large}",
+        stress,
+        f"open {figures['collection']} in ParaView",
+    ]
+    return "\n".join(lines)
 
 
 def _animation_in_words(figures: dict[str, Any]) -> str:

@@ -52,17 +52,17 @@ def claimed_run(config: Config, file: str, run: StoredRun) -> PlannedRun:
 def record(
     blade: ReducedBlade,
     spec: RunSpec,
-    row: Row,
+    row: Row | None,
     instants: Sequence[int],
     progress: Callable[[int], None] | None = None,
 ) -> Recording:
     """Simulate a row as `bladerub.extras.rows.row.simulate_row` does, and record it at some instants.
 
-    These ascend, as numbers of elements that have passed since the start; nothing is computed after the last,
-    before which no blade may leave the displacement limit. Other parameters, and what is raised, are those of
-    `simulate_row`.
+    No row is the single blade. The instants ascend, as numbers of elements that have passed since the start;
+    nothing is computed after the last, before which no blade may leave the displacement limit. Other
+    parameters, and what is raised, are those of `simulate_row`.
     """
-    _, seats, simulation = set_up_row(blade, spec, row)
+    _, seats, simulation = set_up_row(blade, spec, row or Row.even(1))
     n_elements, end = spec.coating.n_elements, instants[-1]
     stops, wear = set(instants), []
     motions: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in seats]

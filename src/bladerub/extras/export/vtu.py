@@ -74,31 +74,26 @@ def write_motion(
     temporary.mkdir()
     turns = [_turn(blade.angle) for blade in row.blades] if row else [np.eye(3)]
     points = np.concatenate([mesh["points"] @ turn for turn in turns])
-    n_points, cells = len(mesh["points"]), mesh["cells"]
-    all_cells = np.concatenate([cells + number * n_points for number in range(len(turns))])
+    shifted = [mesh["cells"] + number * len(mesh["points"]) for number in range(len(turns))]
+    cells = [block(points, np.concatenate(shifted))]  # nodes in the order of VTK already
     try:
         names: list[list[str]] = []
         largest: dict[str, Any] = {"largest_displacement": 0.0}
         instants = zip(recording.coordinates, recording.time, strict=True)
         for number, (coordinates, time) in enumerate(instants, 1):
-            fields: dict[str, list[np.ndarray]] = {}
+            fields: list[dict[str, np.ndarray]] = []  # of each blade
             for blade_coordinates, turn in zip(coordinates, turns, strict=True):
                 displacement = np.tensordot(blade_coordinates, mesh["recovery"], axes=1).astype(np.float32)
                 norm = float(np.linalg.norm(displacement, axis=1).max())
                 largest["largest_displacement"] = max(largest["largest_displacement"], norm)
-                turned = (displacement @ turn).astype(np.float32)
-                for name, values in ({"displacement": turned} | _stress_fields(stress, displacement)).items():
-                    fields.setdefault(name, []).append(values)
-            data = {name: np.concatenate(values) for name, values in fields.items()}
+                turned = {"displacement": (displacement @ turn).astype(np.float32)}
+                fields.append(turned | _stress_fields(stress, displacement))
+            data = {name: np.concatenate([of_blade[name] for of_blade in fields]) for name in fields[0]}
             for name, values in data.items():
                 if name != "displacement":
                     _note(largest, f"largest_{name}", values, points, time)
             names.append([f"blade_{number:04}.vtu"])
-            meshio.Mesh(
-                points,
-                [block(points, all_cells)],  # nodes in the order of VTK already
-                point_data=data,
-            ).write(temporary / names[-1][0])
+            meshio.Mesh(points, cells, data).write(temporary / names[-1][0])
             if row:
                 names[-1].append(f"coating_{number:04}.vtu")
                 _ring(mesh, recording.wear[number - 1], time).write(temporary / names[-1][1])

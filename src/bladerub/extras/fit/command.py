@@ -30,11 +30,11 @@ def add_to(commands: Any) -> None:
 
 def fit_coating(options: argparse.Namespace) -> None:
     """Fit the law to the table that the command line names, and print the parameters."""
-    from bladerub.extras.fit.interface import fit_coating as fit
+    from bladerub.extras.fit import fit
     from bladerub.study.grid import modulus_unit
 
     config = inputs.read_config(options)
-    result = fit(options.table, strain_unit=options.strain_unit, stress_unit=options.stress_unit)
+    result = fit.fit_coating(options.table, strain_unit=options.strain_unit, stress_unit=options.stress_unit)
     names = [parameter.name for parameter in result.parameters]
     figures = {
         "points": result.n_points,

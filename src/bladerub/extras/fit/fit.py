@@ -10,15 +10,18 @@ the overstress builds up after the elastic limit, about ``H r^m / (E + K)``, is 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import f as fisher
 from scipy.stats import t as student
 
+from bladerub.api.arguments import over
 from bladerub.contact import law
 from bladerub.contact.spec import Coating
 from bladerub.extras.fit.curves import Curve
+from bladerub.extras.fit.curves import read as read_curves
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import BadInput
 
@@ -102,6 +105,44 @@ def stress(parameters: Sequence[float], curve: Curve) -> np.ndarray:
     return law.load(coating, curve.strain, wear)[0]
 
 
+@over("path")
+def fit_coating(path: str | Path, *, strain_unit: str | None = None, stress_unit: str | None = None) -> Fit:
+    """Fit E, K, the elastic limit and, over several rates, the overstress to compressive curves.
+
+    Parameters
+    ----------
+    path : path
+        Table in CSV with the columns ``strain``, ``stress`` and, for several rates, ``rate`` (1/s), a unit in
+        brackets behind each: ``stress (MPa)``. A column ``test`` tells tests of one rate apart.
+        A list of paths gives a list of fits.
+    strain_unit : str, optional
+        ``"1"`` or ``"%"``, where the header has none. Default: 1.
+    stress_unit : str, optional
+        ``"Pa"``, ``"kPa"``, ``"MPa"`` or ``"GPa"``, where the header has none.
+
+    Returns
+    -------
+    Fit
+        Parameters in Pa, with standard errors, intervals of 95 % and covariance.
+
+    Raises
+    ------
+    BadInput
+        If the table cannot be used: the message names column, line and value. A `ValueError`.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> rows = [f"{e / 1000},{min(900 * e / 1000, 9 + 50 * (e / 1000 - 0.01))}" for e in range(1, 41)]
+    >>> with open("curve.csv", "w") as stream:
+    ...     print("strain,stress (MPa)", *rows, sep=chr(10), file=stream)
+    >>> fit = br.fit_coating("curve.csv")
+    >>> round(fit["E"].value / 1e6), round(fit["yield_stress"].value / 1e6, 3), fit["K"].determined
+    (900, 9.0, True)
+    """
+    return fit(read_curves(path, {"strain": strain_unit or "", "stress": stress_unit or ""}))
+
+
 def fit(curves: Sequence[Curve]) -> Fit:
     """Fit the law to all curves at once, every point with the same weight.
 
@@ -122,16 +163,12 @@ def fit(curves: Sequence[Curve]) -> Fit:
 
     tiny = 1e-9  # the law divides by E
     bounds = np.array([(tiny, np.inf), (0, np.inf), (0, np.inf), (0, np.inf), _EXPONENT])[: len(names)].T
-    starts = sorted(_starts(curves, unit, len(names)), key=lambda start: np.sum(residuals(start) ** 2))[
-        :_TRIED
+    starts = sorted(_starts(curves, unit, len(names)), key=lambda start: np.sum(residuals(start) ** 2))
+    optima = [
+        least_squares(residuals, start, bounds=bounds, x_scale=np.abs(start) + 1e-3, **_PRECISELY)
+        for start in starts[:_TRIED]
     ]
-    optimum = min(
-        (
-            least_squares(residuals, start, bounds=bounds, x_scale=np.abs(start) + 1e-3, **_PRECISELY)
-            for start in starts
-        ),
-        key=lambda result: result.cost,
-    )
+    optimum = min(optima, key=lambda result: result.cost)
     freedom = points - len(names)
     variance = 2 * optimum.cost / freedom
     scale = np.array([1.0 if UNITS[name] == "1" else unit for name in names])
@@ -139,14 +176,9 @@ def fit(curves: Sequence[Curve]) -> Fit:
     if not _yields(curves, measured, 2 * optimum.cost, len(names)):
         covariance[1:] = covariance[:, 1:] = np.nan
     half = student.ppf(0.5 + LEVEL / 2, freedom)
-    parameters = tuple(
-        _parameter(name, x * s, spread, half, at_bound)
-        for name, x, s, spread, at_bound in zip(
-            names, optimum.x, scale, np.diag(covariance), optimum.active_mask, strict=True
-        )
-    )
+    columns = zip(names, scale * optimum.x, np.diag(covariance), optimum.active_mask, strict=True)
     return Fit(
-        parameters,
+        tuple(_parameter(half, *column) for column in columns),
         covariance,
         float(np.sqrt(variance) * unit),
         _autocorrelation(optimum.fun, [curve.strain.size for curve in curves]),
@@ -192,7 +224,7 @@ def _covariance(jacobian: np.ndarray, x: np.ndarray) -> np.ndarray:
     return covariance
 
 
-def _parameter(name: str, value: float, variance: float, half: float, at_bound: int) -> Parameter:
+def _parameter(half: float, name: str, value: float, variance: float, at_bound: int) -> Parameter:
     """Say what is known of a parameter: one whose interval reaches 0 is not determined."""
     value = float(value)
     if np.isnan(variance) or at_bound:

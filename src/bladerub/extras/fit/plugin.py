@@ -1,4 +1,4 @@
 """A coating fitted to stress-strain curves."""
 
-PUBLIC = {"fit_coating": "extras.fit.interface"}
+PUBLIC = {"fit_coating": "extras.fit.fit"}
 COMMANDS = {"fit-coating": "extras.fit.command"}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bladerub.cli import inputs
 from bladerub.cli.inputs import quantity
 from bladerub.cli.run_option import RunOption
-from bladerub.io.errors import BadInput
+from bladerub.io.errors import BadInput, format_value
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
@@ -45,10 +45,12 @@ class RowOption(RunOption):
 
     def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Convert the scatters; refuse settings without blades, and numbers that cannot be."""
-        from bladerub.config.quantities import key_at, references
+        from bladerub.config.quantities import key_at, number, references
 
-        names = ("length_scatter", "frequency_scatter")
-        inputs.convert(options, *names, reference=references(config), section="rotor.")
+        for name in ("length_scatter", "frequency_scatter"):
+            typed = getattr(options, name)
+            with inputs.refused(ValueError, because=f"--{name.replace('_', '-')} = {format_value(typed)}: "):
+                setattr(options, name, number(f"rotor.{name}", typed, references(config)))
         for name, value in _settings(options).items():
             option = f"--{name.replace('_', '-')} = {value:g}"
             if options.blades is None:

@@ -3,7 +3,6 @@
 import argparse
 import json
 import sys
-from collections.abc import Mapping
 from typing import Any
 
 from bladerub import plugins
@@ -53,10 +52,8 @@ def status(options: argparse.Namespace) -> int:
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
     cases, taken = coating_cases(config), {}
     for case in inputs.progress_bar(len(cases), "coating", cases, quiet=options.json):
-        folder = results / "runs" / case.name
-        taken[case.name] = inventory.take(
-            config, coating_plan(config, case), folder, digest, options.thorough
-        )
+        plan, folder = coating_plan(config, case), results / "runs" / case.name
+        taken[case.name] = inventory.take(config, plan, folder, digest, options.thorough)
     of_rows = [
         part
         for inventories in plugins.loaded("INVENTORIES").values()
@@ -64,8 +61,7 @@ def status(options: argparse.Namespace) -> int:
     ]
     counts = {name: part.counts for name, part in taken.items()}
     rows = inventory.total(part.counts for part in of_rows) if of_rows else None
-    examinations = plugins.loaded("FAULTS").values() if options.thorough else ()
-    faults = [examine(results) for examine in examinations]
+    faults = [examine(results) for examine in plugins.loaded("FAULTS").values()] if options.thorough else []
     parts = [*taken.values(), *of_rows, *faults]
     lost_files = [path for part in faults for path in part.lost_files]
     damaged = list(dict.fromkeys(path for part in parts for path in part.damaged))
@@ -76,17 +72,21 @@ def status(options: argparse.Namespace) -> int:
                 path.unlink(missing_ok=True)
     total = inventory.total(counts.values())
     if options.json:
-        about = {
+        figures = total | {
             "note": note,
             "damaged": [str(path) for path in damaged],
             "discarded": options.discard,
             "lost": [str(path) for path in lost_files],
             "cannot_be_read": unreadable,
+            "coatings": counts,
         }
-        total_of_rows = {"rows_of_blades": rows} if rows else {}
-        print(json.dumps(total | about | {"coatings": counts} | total_of_rows, indent=2))
+        print(json.dumps(figures | ({"rows_of_blades": rows} if rows else {}), indent=2))
         return 2 if unreadable else 0
-    _print_table(counts | {"all": total})
+    width = max(map(len, ["coating", *counts]))
+    print(inputs.row(width, "coating", *_COLUMNS, "MB"))
+    for name, of_coating in (counts | {"all": total}).items():
+        numbers = [f"{of_coating[column]}" for column in _COLUMNS]
+        print(inputs.row(width, name, *numbers, f"{of_coating['bytes'] / 1e6:.1f}"))
     print(f"\nspeeds: {speeds_in_words(speeds(config), kept_frequency(config))}")
     longer = f"{total['longer_done']} of {total['longer_planned']} done"
     print(f"longer runs, where growth is to be confirmed: {longer}")
@@ -114,11 +114,3 @@ def status(options: argparse.Namespace) -> int:
         print(f"{number}\n  {unreadable[0]}", file=sys.stderr)
         return 2
     return 0
-
-
-def _print_table(counts: Mapping[str, Mapping[str, int]]) -> None:
-    width = max(len(name) for name in ["coating", *counts])
-    print(f"{'coating':<{width}}" + "".join(f"{column:>11}" for column in _COLUMNS) + f"{'MB':>10}")
-    for name, inventory in counts.items():
-        numbers = "".join(f"{inventory[column]:>11}" for column in _COLUMNS)
-        print(f"{name:<{width}}{numbers}{inventory['bytes'] / 1e6:>10.1f}")
