@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from html import escape
+from typing import Any
 
 from tqdm.auto import tqdm
 
@@ -30,13 +31,13 @@ class Shown(ABC):
         return f"<table><caption>{escape(title)}</caption>{cells}</table>"
 
 
-def bar(total: int, unit: str, progress: bool | None, **look: str) -> tqdm:
+def bar(total: int, unit: str, progress: bool | None, **settings: Any) -> tqdm:
     """Return a bar of so many units on standard error, which goes when they are done.
 
-    `progress` is None, for a terminal or notebook alone, or whether to show it.
+    `progress` is None, for a terminal or notebook alone, or whether to show it; others are those of tqdm.
     """
     disable = None if progress is None else not progress
-    return tqdm(total=total, unit=unit, disable=disable, leave=False, **look)
+    return tqdm(total=total, unit=unit, disable=disable, leave=False, **settings)
 
 
 @contextmanager

@@ -73,22 +73,6 @@ def simulate(
     >>> run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
     >>> run.revolutions, run.status
     (20, 'completed')
-
-    The largest stress of the blade:
-
-    >>> peak_stress = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), stress=True).stress
-    >>> peak_stress.static["von_mises"] < peak_stress.last["von_mises"]
-    True
-
-    Three blades on one coating, the second 50 µm longer than the others:
-
-    >>> row = br.simulate(
-    ...     blade,
-    ...     study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3),
-    ...     row=br.Row.even(3, length=[0.0, 5e-5, 0.0]),
-    ... )
-    >>> len(row.blades), int(row.blades.worn_volume.idxmax())
-    (3, 2)
     """
     blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     run = run.of_length(blade.length)  # perhaps not the study's own blade

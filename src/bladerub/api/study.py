@@ -57,9 +57,6 @@ class Study(Shown):
     'longer'
     >>> br.Study.from_settings({"solver": {"revolutions": 40}}).config.solver.revolutions
     40
-    >>> viscoplastic = study.with_law(br.Law("viscoplastic", viscosity=1e4))
-    >>> viscoplastic.coating("2nd", E=2, K=0.5).at(0.19).spec.coating.element_law.name
-    'viscoplastic'
     """
 
     config: Config = field(repr=False)

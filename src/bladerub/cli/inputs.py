@@ -7,10 +7,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any, NoReturn
-
-from tqdm import tqdm
 
 from bladerub.config import read as configuration
 from bladerub.config import record
@@ -115,12 +112,6 @@ def require_writable(option: str, path: Path) -> None:
         raise BadInput(f"{option} {path}: cannot be written, {folder} is no folder")
     if not os.access(folder, os.W_OK):
         raise BadInput(f"{option} {path}: cannot be written, {folder} is write-protected")
-
-
-def progress_bar(total: int, unit: str, items: Iterable | None = None, quiet: bool = False) -> tqdm:
-    """Show progress on standard error if that is a terminal, unless `quiet`."""
-    columns = get_terminal_size().columns
-    return tqdm(items, total=total, unit=unit, ncols=columns, disable=quiet or None, leave=False)
 
 
 def show(options: argparse.Namespace, figures: dict[str, Any], in_words: Callable[[dict], str]) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
 from bladerub.extras.export import blade_command
@@ -201,9 +202,9 @@ def _record(
     before = 0 if all_revolutions else last - 1
     instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
     compile_kernel(plan.spec.turns, blade.n_interface, plan.spec.coating.element_law)
-    with inputs.progress_bar(last, "rev") as bar:
-        elements = (before * n_elements + instants).tolist()
-        recording = record(blade, plan.spec, plan.row, elements, lambda done: bar.update(done - bar.n))
+    elements = (before * n_elements + instants).tolist()
+    with bar(last, "rev", None) as line:
+        recording = record(blade, plan.spec, plan.row, elements, lambda done: line.update(done - line.n))
     blade_index = run.attributes.get("blade", 1) - 1  # whose peaks are stored
     stored = run.data["revolution_peak"][:last]
     difference = np.max(np.abs(recording.revolution_peak[blade_index] - stored))

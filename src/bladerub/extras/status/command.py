@@ -6,6 +6,7 @@ import sys
 from typing import Any
 
 from bladerub import plugins
+from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.settings.units import speeds_in_words
 
@@ -51,7 +52,7 @@ def status(options: argparse.Namespace) -> int:
     results = inputs.study_folder() / config.results
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
     cases, taken = coating_cases(config), {}
-    for case in inputs.progress_bar(len(cases), "coating", cases, quiet=options.json):
+    for case in bar(len(cases), "coating", False if options.json else None, iterable=cases):
         plan, folder = coating_plan(config, case), results / "runs" / case.name
         taken[case.name] = inventory.take(config, plan, folder, digest, options.thorough)
     of_rows = [

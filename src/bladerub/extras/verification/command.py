@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
 from bladerub.io.errors import BadInput
@@ -74,7 +75,7 @@ def verify(options: argparse.Namespace) -> None:
         )
     with refused(ValueError):
         runs_done = verify_runs(blade.reduced, config, runs, options.jobs)
-        verified = list(inputs.progress_bar(len(runs), "run", runs_done, quiet=options.json))
+        verified = list(bar(len(runs), "run", False if options.json else None, iterable=runs_done))
     inputs.warn_of_residual(options, max(run.energy_residual for run in verified))
     inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | summary(verified), _in_words)
 
