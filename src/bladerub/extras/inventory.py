@@ -72,20 +72,15 @@ class _RunSummary(NamedTuple):
 
 
 def take(
-    config: Config,
-    plan: CoatingPlan,
-    folder: str | Path,
-    digest: str | None,
-    thorough: bool = False,
+    config: Config, plan: CoatingPlan, folder: Path, digest: str | None, thorough: bool = False
 ) -> Inventory:
     """Compare the runs of one coating in `folder` with its `plan`.
 
-    Without a blade, whose `digest` is of `current_blade`, every run that is there is stale. A
-    file of the size in the manifest is taken to be what that says; any other is opened, which shows a
-    truncated one. If `thorough`, every number is read, and every byte compared with the checksum in the
-    manifest if the job is done.
+    Without a blade, whose `digest` is of `current_blade`, every run that is there is stale. A file of the
+    size in the manifest is taken to be what that says; any other is opened, which shows a truncated one. If
+    `thorough`, every number is read, and every byte compared with the checksum in the manifest if the job is
+    done.
     """
-    folder, settings = Path(folder), config.analysis.divergence
     manifest = folder / "manifest.tsv"
     damaged = damaged_files(manifest, thorough=thorough)
     paths = (Path(place, name) for place, _, names in os.walk(folder) for name in names)
@@ -102,7 +97,7 @@ def take(
             if path in damaged:
                 return "corrupt", None
             try:
-                summary = _read(path, settings, thorough)
+                summary = _read(path, config.analysis.divergence, thorough)
             except Exception as error:  # h5py raises anything on a damaged file
                 if is_refused(error):
                     unreadable.append(message_for(error))

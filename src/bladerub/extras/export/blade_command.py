@@ -76,13 +76,8 @@ def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> dict[st
     from bladerub.blade.reduction import fit_speeds
     from bladerub.extras.export.matrices import write_fe_matrices
 
-    blade = by_finite_elements(
-        meshed_blade(config.blade, n_interface(config)),
-        config.blade.material,
-        [*fit_speeds(f_max), *speeds],
-        [],
-        config.reduction.accuracy_modes,
-    )
+    meshed, modes = meshed_blade(config.blade, n_interface(config)), config.reduction.accuracy_modes
+    blade = by_finite_elements(meshed, config.blade.material, [*fit_speeds(f_max), *speeds], [], modes)
     files = write_fe_matrices(folder, blade, f_max, f".{options.matrix_format or 'mtx'}")
     mesh = blade.layout.mesh.mesh
     return _figures(files, mesh.points, mesh.cells, blade.free.free.size)

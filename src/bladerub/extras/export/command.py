@@ -102,7 +102,7 @@ def _motion(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     with refused(OSError):
         mesh = read_mesh(blade.mesh_path, blade.reduced)
         stress = stress_of(blade.mesh_path, run.attributes["f_omega"]) if len(mesh["cells"]) else None
-    recording = _record(options, run, plan, blade.reduced, all_revolutions=False)
+    recording = _record(options, run, plan, blade.reduced, whole=False)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
     about = {name: run.attributes[name] for name in names} | provenance(config.plain())
     with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
@@ -131,7 +131,7 @@ def _animation(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     from bladerub.extras.export.animation import animate
     from bladerub.extras.rows.spec import Row
 
-    recording = _record(options, run, plan, blade.reduced, all_revolutions=True)
+    recording = _record(options, run, plan, blade.reduced, whole=True)
     with refused(OSError, because=f"--animation {path}: cannot be written: "):
         animate(path, recording, blade.reduced, plan.row or Row.even(1), run.attributes)
     blades, revolutions = recording.revolution_peak.shape
@@ -181,13 +181,9 @@ def _run_of_file(
 
 
 def _record(
-    options: argparse.Namespace,
-    run: "StoredRun",
-    plan: "PlannedRun",
-    blade: "ReducedBlade",
-    all_revolutions: bool,
+    options: argparse.Namespace, run: "StoredRun", plan: "PlannedRun", blade: "ReducedBlade", whole: bool
 ) -> "Recording":
-    """Record the last complete revolution of a run, or `all_revolutions` up to it."""
+    """Record the last complete revolution of a run, or the `whole` of it up to there."""
     from bladerub.contact.setup import compile_kernel
     from bladerub.extras.export.recording import record
 
@@ -199,7 +195,7 @@ def _record(
             f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "
             "revolution is complete"
         )
-    before = 0 if all_revolutions else last - 1
+    before = 0 if whole else last - 1
     instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
     compile_kernel(plan.spec.turns, blade.n_interface, plan.spec.coating.element_law)
     elements = (before * n_elements + instants).tolist()

@@ -59,10 +59,8 @@ def _read(table: cells.Cells, units: Mapping[str, str]) -> list[Curve]:
             f"has no column {', '.join(missing)}; line {table.header} must name strain, stress and, for "
             f"several rates, rate, separated as the cells below ({table.separator} here)"
         )
-    values = pd.DataFrame(
-        {name: _values(table, name, header[name], units) for name in UNITS if name in header},
-        index=[*table.rows],
-    )
+    columns = [name for name in UNITS if name in header]
+    values = pd.DataFrame({name: _values(table, name, header[name], units) for name in columns})
     if len(values) < FEWEST_ROWS:
         raise ValueError(f"has {len(values)} rows, must have {FEWEST_ROWS} or more")
     if values.strain.max() == 0:

@@ -43,7 +43,11 @@ def report(options: argparse.Namespace) -> None:
     from bladerub.extras.report import answers, page, results
     from bladerub.io import atomic
 
-    _require(results.files(config, folder), options.config, folder)
+    if missing := [path for path in results.files(config, folder) if not path.exists()]:
+        made_with = record.Record(options.config) if options.config else record.read(folder)
+        target = missing[0].relative_to(inputs.study_folder()).as_posix()
+        command = f"snakemake -j2 {made_with.as_arguments() if made_with else ''}".strip()
+        raise BadInput(f"{target} is missing: the study is not finished; run {command}")
     with refused(ValueError):
         finished = results.read(config, folder)
     shown = _chosen(options.coating, finished) or answers.shown(finished, _MOST_COATINGS)
@@ -53,16 +57,6 @@ def report(options: argparse.Namespace) -> None:
     figures = {"page": str(path), "bytes": path.stat().st_size, "coatings": coatings}
     line = f"{path}: {figures['bytes'] / 1e6:.1f} MB; the coating with the highest peak is {coatings[0]}"
     inputs.show(options, figures, lambda _: line)
-
-
-def _require(files: list[Path], overlays: list[str], folder: Path) -> None:
-    """Refuse a study that is not finished: name the first missing file and what makes it."""
-    missing = [path for path in files if not path.exists()]
-    if missing:
-        made_with = record.Record(overlays) if overlays else record.read(folder)
-        target = missing[0].relative_to(inputs.study_folder()).as_posix()
-        command = f"snakemake -j2 {made_with.as_arguments() if made_with else ''}".strip()
-        raise BadInput(f"{target} is missing: the study is not finished; run {command}")
 
 
 def _chosen(names: list[str], finished: "Results") -> list[str]:

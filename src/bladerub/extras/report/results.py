@@ -24,7 +24,6 @@ STRESS = "last_von_mises"
 
 BLADE = "blade/reduced_model.h5"
 
-_BANDS = ("draws", "amplitude_low", "amplitude_high", "amplitude_error")  # of ``peak_bands.csv``
 
 
 class Results(NamedTuple):
@@ -116,7 +115,8 @@ def _runs(folder: Path, case: CoatingCase, verdicts: pd.DataFrame) -> pd.DataFra
 
 def _peaks(folder: Path, case: CoatingCase, peak_table: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
     """Join the peaks of one coating with the runs at their speeds and, where it is known, the stress."""
-    columns = ["order", "f_peak", "amplitude", *_BANDS, "reason"]
+    bands = ["draws", "amplitude_low", "amplitude_high", "amplitude_error"]  # of ``peak_bands.csv``
+    columns = ["order", "f_peak", "amplitude", *bands, "reason"]
     rows = of_case(peak_table, case).reindex(columns=columns)
     if rows.empty:
         raise ValueError(f"tables/peaks.csv: has no peak of {case.name}; run snakemake again")
