@@ -25,7 +25,6 @@ STRESS = "last_von_mises"
 BLADE = "blade/reduced_model.h5"
 
 
-
 class Results(NamedTuple):
     """A finished study: SI units, speeds as normalised ``f_omega`` or ``f_peak`` and in ``rpm``.
 
