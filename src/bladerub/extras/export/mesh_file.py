@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -39,10 +38,8 @@ def write_mesh_file(
         number = np.arange(len(points))
         marks = {name: np.isin(number, nodes).astype(np.int8) for name, nodes in node_sets.items()}
         mesh = meshio.Mesh(points, [block(points, cells)], point_data=marks | dict(fields or {}))
-    with TemporaryDirectory() as scratch, atomic.writing(path, "wb") as stream:
-        file = Path(scratch) / f"mesh{suffix}"  # meshio wants a path
-        mesh.write(file, FORMATS[suffix])
-        stream.write(file.read_bytes())
+    with atomic.writing(path, "wb") as stream:
+        mesh.write(stream.name, FORMATS[suffix])  # meshio wants a path
 
 
 def block(points: np.ndarray, cells: np.ndarray) -> tuple[str, np.ndarray]:
