@@ -101,7 +101,7 @@ def stress(parameters: Sequence[float], curve: Curve) -> np.ndarray:
         overstress, exponent = rate_part
         limit += overstress * curve.rate**exponent
     coating = replace(_UNIT, E=E, K=K, yield_stress=limit)
-    _, wear = law.load(coating, np.maximum.accumulate(curve.strain), 0.0)
+    _, wear = law.load(coating, np.maximum.accumulate(curve.strain), np.zeros(1))
     return law.load(coating, curve.strain, wear)[0]
 
 
