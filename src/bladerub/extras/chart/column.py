@@ -1,9 +1,9 @@
 """The job of one column of the chart: every point that is missing or stale, and the rows of its manifest."""
 
-import functools
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,29 +11,26 @@ import numpy as np
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.laws import law_digest
-from bladerub.contact.result import RunResult
 from bladerub.contact.sources import solver_digest
-from bladerub.contact.spec import RunSpec
 from bladerub.extras.chart import point as points
 from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
 from bladerub.extras.chart.plan import chart_speeds
 from bladerub.extras.chart.point import PointRow
-from bladerub.extras.chart.search import compute, compute_together, search
-from bladerub.io import lock, sources
+from bladerub.extras.chart.search import compute, search
+from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
+from bladerub.io.sources import digest_of
 from bladerub.settings.study import Config
-from bladerub.study import cache
+from bladerub.study.cache import Entry, digest
 from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.solver import each_done, solver_of
 
 
-@functools.cache
 def chart_digest() -> str:
     """Digest the source of what chooses the speeds of a point of the chart and what it keeps of each run."""
-    measuring = ["blade/frequencies.py"]
-    measuring += [f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear")]
-    searching = [f"extras/chart/{name}.py" for name in ("grid", "search", "point")]
-    return sources.source_digest(sources.PACKAGE / name for name in measuring + searching)
+    measuring = (f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear"))
+    searching = (f"extras/chart/{name}.py" for name in ("grid", "search", "point"))
+    return digest_of("blade/frequencies.py", *measuring, *searching)
 
 
 def determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> str:
@@ -41,7 +38,7 @@ def determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> str:
 
     Other points, and the coatings of the study, have no part in it.
     """
-    return cache.digest(
+    return digest(
         {
             "runs": run_determinants(config, case, speeds),
             "uniform": np.flatnonzero(speeds.uniform).tolist(),
@@ -58,7 +55,7 @@ def run_determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> 
     The speeds that the search chooses have no part in it.
     """
     analysis = config.analysis
-    return cache.digest(
+    return digest(
         solver_of(config).determinants()
         | law_digest(element_law(config))
         | {
@@ -100,44 +97,35 @@ def compute_missing(
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     solver = solver_of(config)
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
-    entries = {
-        case: cache.Entry(
-            folder / f"{case.name}.h5",
-            cache.digest([planned, blade_digest]),
-            points.MEASURES.keys(),
-            points.KEY,
-        )
-        for case, planned in plan.items()
-    }
-    runs_keys = {case: cache.digest([run_determinants(config, case, speeds), blade_digest]) for case in plan}
+    entries, runs_keys, searches, checksums = {}, {}, {}, {}
+    for case, planned in plan.items():
+        key = digest([planned, blade_digest])
+        entries[case] = Entry(folder / f"{case.name}.h5", key, points.MEASURES.keys(), points.KEY)
+        runs_keys[case] = digest([run_determinants(config, case, speeds), blade_digest])
+    C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
+
+    def compute_alone(case: CoatingCase) -> tuple[points.ChartPoint, float]:
+        start = time.monotonic()
+        ((_, point),) = compute({case: searches[case]}, partial(solver.simulate_many, blade))
+        return point, start
+
     with lock.held(column_lock, lambda: report("another job is at work on this column: waiting for its end")):
-        checksums = {}
-        missing = [case for case, entry in entries.items() if not entry.fetch()]
-        earlier = {case: points.read_of(entries[case].path, runs_keys[case]) for case in missing}
-        if missing:
-            C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
-
-        def made(case: CoatingCase) -> tuple[points.ChartPoint, float]:
+        for case, entry in entries.items():
+            if not entry.fetch():
+                earlier = points.read_of(entry.path, runs_keys[case])
+                searches[case] = search(config, case, blade, speeds, C1, earlier)
+        if solver.wants_many:
+            together = partial(solver.simulate_many, blade, threads=threads, report=report)
             start = time.monotonic()
-            return compute(config, case, blade, speeds, C1, earlier[case]), start
-
-        def made_together() -> Iterator[tuple[CoatingCase, tuple[points.ChartPoint, float]]]:
-            start = time.monotonic()
-            searches = {case: search(config, case, blade, speeds, C1, earlier[case]) for case in missing}
-
-            def solve(specs: Sequence[RunSpec]) -> Iterator[tuple[int, RunResult]]:
-                solved = solver.simulate_many(blade, specs, threads, report)
-                return ((number, result) for number, result, _ in solved)
-
-            return ((case, (point, start)) for case, point in compute_together(searches, solve))
-
-        results = made_together() if solver.wants_many else each_done(made, missing, threads)
+            results = ((case, (point, start)) for case, point in compute(searches, together))
+        else:
+            results = each_done(compute_alone, searches, threads)
         for number, (case, (point, start)) in enumerate(results, 1):
             entry = entries[case]
             entry.make_room()
             checksums[case] = points.write(entry.path, point, entry.key, runs_keys[case], config)
             seconds = time.monotonic() - start
-            report(f"[{number}/{len(missing)}] {case.name}: {point.known.sum()} runs in {seconds:.1f} s")
+            report(f"[{number}/{len(searches)}] {case.name}: {point.known.sum()} runs in {seconds:.1f} s")
         return [
             PointRow(
                 entry.path.name,

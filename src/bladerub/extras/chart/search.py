@@ -21,7 +21,6 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
-from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.strips import element_area
 from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
@@ -39,37 +38,17 @@ Search = Generator[list[RunSpec], list[RunResult], ChartPoint]
 
 
 def compute(
-    config: Config,
-    case: CoatingCase,
-    blade: ReducedBlade,
-    speeds: ChartSpeeds,
-    C1: np.ndarray,
-    earlier: ChartPoint | None = None,
-) -> ChartPoint:
-    """Run the coating `case` at the speeds that the search chooses; `C1` (n,) is normalised.
-
-    `earlier` is a point of the same runs, at other of their speeds.
-    """
-
-    def solve(specs: Sequence[RunSpec]) -> Iterator[tuple[int, RunResult]]:
-        return ((number, simulate(blade, spec)) for number, spec in enumerate(specs))
-
-    ((_, point),) = compute_together({case: search(config, case, blade, speeds, C1, earlier)}, solve)
-    return point
-
-
-def compute_together(
     searches: Mapping[CoatingCase, Search],
-    solve: Callable[[Sequence[RunSpec]], Iterable[tuple[int, RunResult]]],
+    solve: Callable[[Sequence[RunSpec]], Iterable[tuple[int, RunResult, float]]],
 ) -> Iterator[tuple[CoatingCase, ChartPoint]]:
     """Carry out searches together; yield each point, with its coating, as it is complete.
 
-    `solve` yields the number of each run that it is given, with its result.
+    `solve` is `bladerub.study.solver.Solver.simulate_many` of a blade.
     """
     pending = {case: next(generator) for case, generator in searches.items()}
     while pending:
-        by_number = dict(solve([spec for specs in pending.values() for spec in specs]))
-        results, next_specs = iter([by_number[number] for number in range(len(by_number))]), {}
+        solved = sorted(solve([spec for specs in pending.values() for spec in specs]))
+        results, next_specs = (result for _, result, _ in solved), {}
         for case, specs in pending.items():
             try:
                 next_specs[case] = searches[case].send(list(islice(results, len(specs))))
@@ -86,7 +65,10 @@ def search(
     C1: np.ndarray,
     earlier: ChartPoint | None = None,
 ) -> Search:
-    """Search for the maxima of a coating, as `compute` does."""
+    """Search for the maxima of a coating; `C1` (n,) is normalised.
+
+    `earlier` is a point of the same runs, at other of their speeds.
+    """
     n, orders = speeds.f_omega.size, chart_orders(config)
     point = ChartPoint(
         case=case,
@@ -97,17 +79,20 @@ def search(
         uniform=speeds.uniform,
         measures={name: np.full(n, np.nan) for name in MEASURES},
     )
-    share, pending = config.chart.speeds.refine_above, np.flatnonzero(speeds.coarse).tolist()
+    analysis, share = config.analysis, config.chart.speeds.refine_above
+    pending = np.flatnonzero(speeds.coarse).tolist()
     ends: list[_End] = []
     while pending:
         to_run = [index for index in pending if not _taken_over(point, earlier, index)]
         specs = [run_spec(config, case, point.f_omega[index]) for index in to_run]
         for index, spec, result in zip(to_run, specs, (yield specs), strict=True):
-            _enter(config.analysis, blade, point, index, spec, result)
+            point.spectrum_amplitude[index] = _amplitudes(analysis, orders, spec, result)
+            for name, value in _measured(analysis, blade, spec, result).items():
+                point.measures[name][index] = value
             if point.uniform[index]:
                 ends.append(_End(index, spec, result.revolution_amplitude, result.status))
         pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
-    yield from _judge(config.analysis, point, ends)
+    yield from _judge(analysis, point, ends)
     return point
 
 
@@ -156,29 +141,13 @@ def next_speeds(computed: np.ndarray, curves: Iterable[np.ndarray], share: float
     return sorted(midpoints)
 
 
-def _enter(
-    analysis: Analysis,
-    blade: ReducedBlade,
-    point: ChartPoint,
-    index: int,
-    spec: RunSpec,
-    result: RunResult,
-) -> None:
-    """Put what is measured of a run at one speed into `point`."""
-    point.spectrum_amplitude[index] = _amplitudes(analysis, point.spectrum_order, spec, result)
-    for name, value in _measured(analysis, blade, spec, result).items():
-        point.measures[name][index] = value
-
-
-def _amplitudes(analysis: Analysis, orders: np.ndarray, spec: RunSpec, result: RunResult) -> list[float]:
+def _amplitudes(analysis: Analysis, orders: Sequence[int], spec: RunSpec, result: RunResult) -> list[float]:
     """Largest amplitude on each of the engine orders, m."""
-    halfwidth = analysis.peaks.order_halfwidth
+    reach = analysis.peaks.order_halfwidth + 1e-9
     order, amplitude = order_spectrum(
-        result.radial_displacement, spec.revolutions, analysis.spectrum_revolutions, orders.max() + 1
+        result.radial_displacement, spec.revolutions, analysis.spectrum_revolutions, max(orders) + 1
     )
-    return [
-        float(amplitude[np.abs(order - engine_order) <= halfwidth + 1e-9].max()) for engine_order in orders
-    ]
+    return [float(amplitude[np.abs(order - engine_order) <= reach].max()) for engine_order in orders]
 
 
 def _measured(analysis: Analysis, blade: ReducedBlade, spec: RunSpec, result: RunResult) -> dict[str, float]:
