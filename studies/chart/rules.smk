@@ -10,6 +10,8 @@ from bladerub.study.grid import modulus_unit
 CHART_ORDERS = chart_orders(STUDY)
 PEAK_CAPTIONS = {f"{name}{order}": f"chart_{name}k" for order in CHART_ORDERS for name in "Yf"}
 CHARTED = [*PEAK_CAPTIONS, "peak", "worn_volume", "divergent_share"]
+CHART_FIGURES = ["safe", "pareto", "explanation", "stiffening"]
+CHART_TABLES = ["pareto", "choice", "ridge", "ridge_summary", "explanation", "stiffening"]
 
 
 @cache
@@ -31,27 +33,6 @@ def planned_points(wildcards):
     from bladerub.extras.chart.column import plan_column  # imports the solver
 
     return plan_column(STUDY, chart_columns()[wildcards.column])
-
-
-def chart_with_stress(wildcards):
-    """The chart and, where its stress is limited, that of each coating."""
-    limited = "fatigue" in config["chart"]["limits"]
-    return [
-        rules.chart_table.output.table,
-        *(rules.chart_stress.output[:1] if limited else []),
-    ]
-
-
-def charted_maps(wildcards):
-    """Maps of those coatings of the study that are on the casing and have an angle of the chart."""
-    chart = config["chart"]
-    return [
-        map_of(case)
-        for case in coating_cases(STUDY)
-        if not (case.is_rigid or case.variant)
-        and case.casing == chart["casing"]
-        and case.theta in chart["theta"]
-    ]
 
 
 COLUMN_MANIFEST = f"{RESULTS}/chart/columns/{{column}}.tsv"
@@ -116,89 +97,57 @@ rule chart_stress:
         "scripts/chart_stress.py"
 
 
-rule chart_maps:
-    # one job, because to start it takes longer than to draw one
+rule chart:
+    # tables and figures in one job, because to start it takes longer than to draw one
     input:
-        table=rules.chart_table.output[0],
-        drawing=files_behind("extras.plots.chart_moduli", "plots.titles"),
+        tables=[
+            rules.chart_table.output.table,
+            *(rules.chart_stress.output[:1] if "fatigue" in config["chart"]["limits"] else []),
+        ],
+        manifests=chart_manifests,
+        blade=rules.blade.output.reduced_model,
+        analysing=files_behind(
+            *(f"extras.chart.{name}" for name in ("choice", "ridge", "stiffening", "stress", "table")),
+        ),
+        drawing=files_behind(
+            *(f"extras.plots.chart_{name}" for name in ("moduli", "pareto", "peaks")),
+            "plots.titles",
+        ),
     output:
-        png=[
-            shown(
+        **{
+            f"chart_{name}_png": shown(
                 f"{PLOTS}/chart_{name}.png",
                 PEAK_CAPTIONS.get(name, f"chart_{name}"),
                 "8. Choice of a coating",
                 title=f"Chart: {name}" if name in PEAK_CAPTIONS else None,
             )
-            for name in CHARTED
-        ],
-        pdf=[f"{PLOTS}/chart_{name}.pdf" for name in CHARTED],
+            for name in [*CHARTED, *CHART_FIGURES]
+        },
+        **{f"chart_{name}_pdf": f"{PLOTS}/chart_{name}.pdf" for name in [*CHARTED, *CHART_FIGURES]},
+        **described(**{name: f"{TABLES}/chart_{name}.csv" for name in CHART_TABLES}),
     log:
-        f"{RESULTS}/logs/chart_maps.log",
+        f"{RESULTS}/logs/chart.log",
     params:
         dpi=DPI,
         quantities=CHARTED,
         modulus_unit=modulus_unit(STUDY),
-    script:
-        "scripts/chart_maps.py"
-
-
-rule chart_choice:
-    # what the limits leave: a map, the front of the best coatings, and one to recommend
-    input:
-        tables=chart_with_stress,
-        analysing=files_behind("extras.chart.choice", "extras.chart.stress"),
-        drawing=files_behind("extras.plots.chart_moduli", "extras.plots.chart_pareto", "plots.titles"),
-    output:
-        **drawn_together(["chart_safe", "chart_pareto"], "8. Choice of a coating", with_data=False),
-        **described(pareto=f"{TABLES}/chart_pareto.csv", choice=f"{TABLES}/chart_choice.csv"),
-    log:
-        f"{RESULTS}/logs/chart_choice.log",
-    params:
-        dpi=DPI,
-        modulus_unit=modulus_unit(STUDY),
         limits=config["chart"]["limits"],
-    script:
-        "scripts/chart_choice.py"
-
-
-rule chart_peaks:
-    # ridges of the peaks, and what their heights and speeds follow
-    input:
-        manifests=chart_manifests,
-        blade=rules.blade.output.reduced_model,
-        analysing=files_behind(
-            "extras.chart.table",
-            "extras.chart.ridge",
-            "extras.chart.stiffening",
-            "study.peaks",
-        ),
-        drawing=files_behind("extras.plots.chart_peaks", "plots.titles"),
-    output:
-        **drawn_together(
-            ["chart_explanation", "chart_stiffening"],
-            "8. Choice of a coating",
-            with_data=False,
-        ),
-        **described(
-            ridge=f"{TABLES}/chart_ridge.csv",
-            ridge_summary=f"{TABLES}/chart_ridge_summary.csv",
-            explanation=f"{TABLES}/chart_explanation.csv",
-            stiffening=f"{TABLES}/chart_stiffening.csv",
-        ),
-    log:
-        f"{RESULTS}/logs/chart_peaks.log",
-    params:
-        dpi=DPI,
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
-        modulus_unit=modulus_unit(STUDY),
     script:
-        "scripts/chart_peaks.py"
+        "scripts/chart.py"
 
 
 rule chart_placement:
     # how well the search does, from the study alone: `snakemake results/tables/chart_placement.csv`
     input:
-        maps=charted_maps,
+        # of coatings of the study that could be points of the chart
+        maps=[
+            map_of(case)
+            for case in coating_cases(STUDY)
+            if not (case.is_rigid or case.variant)
+            and case.casing == config["chart"]["casing"]
+            and case.theta in config["chart"]["theta"]
+        ],
         analysing=files_behind(
             "extras.chart.search",
             "extras.chart.check",
@@ -232,19 +181,7 @@ rule chart_agreement:
         "scripts/chart_agreement.py"
 
 
-rule chart:
-    input:
-        rules.chart_table.output,
-        rules.chart_maps.output,
-        rules.chart_choice.output,
-        rules.chart_peaks.output,
-
-
-localrules:
-    chart,
-
-
 PICTURES["chart_images"] = {
     f"studies/chart/images/chart_{name}.png": Picture(f"{PLOTS}/chart_{name}.png", 20)
-    for name in ("Y4", "safe", "pareto", "explanation", "stiffening")
+    for name in ["Y4", *CHART_FIGURES]
 }

@@ -5,13 +5,13 @@ reading it from the paper's text and of another blade than the paper's. The clai
 target here: they are kept to see what a match predicts.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 import pandas as pd
 
+from bladerub.extras.important_runs import LOBES
 from bladerub.study.findings.claim import NotMeasurable, claim_of
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import SAME_SPEED, CoatingCase, between
@@ -20,8 +20,6 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.paper import (
     CASING,
     CRITICAL,
-    FIVE_LOBES,
-    FOUR_LOBES,
     HARDLY,
     NEAR,
     SIGNIFICANT,
@@ -31,7 +29,6 @@ from bladerub.study.paper import (
     STIFFENING_FROM,
     STRAIGHT,
     STRAIGHT_SPEED,
-    TEN_LOBES,
     THETA,
     TILTED,
     TILTED_SPEED,
@@ -44,8 +41,10 @@ EQUAL, AT_LEAST, AT_MOST = "equal", "at least", "at most"
 _READING = 0.005  # half a unit of the second digit of the speeds that the paper prints
 _OTHER_BLADE = NEAR / 2  # a speed of a blade with another C1: `NEAR`, which a claim allows, is two of these
 _SHIFT = 0.002  # of one speed against another of the same blade: the step of the study
+_SPEED = float(np.hypot(_READING, _OTHER_BLADE))
 _RATIO = 0.05  # of amplitudes: what a claim counts as partly below its border
 _SHARE = 0.1  # of shares of the worn depth in a harmonic
+_SIGNIFICANT = float(np.log(SIGNIFICANT))
 _GROWTH = 0.005  # per revolution: half of what counts as growth
 _GREATEST_GROWTH = 0.1  # per revolution; an unbounded run and one that doubles are both far above the border
 
@@ -59,7 +58,8 @@ class Target:
     relation: str  # of the quantity to `value`: EQUAL, AT_LEAST or AT_MOST
     value: float
     error: float
-    measure: Callable[[Evidence], float]
+    measure: Callable[..., float]  # of `Evidence` and the `arguments`
+    arguments: tuple = ()
 
     def excess(self, values: np.ndarray) -> np.ndarray:
         """Return how far values (n,) miss the target, never negative; NaN stays NaN."""
@@ -75,7 +75,7 @@ def measure(evidence: Evidence, claims: Iterable[str]) -> dict[str, float]:
     for name, target in TARGETS.items():
         if claim_of(target.claim) in selection:
             try:
-                values[name] = float(target.measure(evidence))
+                values[name] = float(target.measure(evidence, *target.arguments))
             except (NotMeasurable, ValueError):  # as of `amplitude_in_window`
                 values[name] = float("nan")
     return values
@@ -120,7 +120,7 @@ def _dominance(evidence: Evidence, case: CoatingCase, inside: np.ndarray, harmon
 
 
 def _dominance_between(
-    evidence: Evidence, low: float, high: float, harmonic: int, reduce: Callable[[np.ndarray], float]
+    evidence: Evidence, harmonic: int, reduce: Callable[[np.ndarray], float], low: float, high: float
 ) -> float:
     inside = between(evidence.map(WORN).f_omega, low, high)
     return float(reduce(_dominance(evidence, WORN, inside, harmonic)))
@@ -201,6 +201,10 @@ def _over_modulus(evidence: Evidence, column: str, reduce: Callable[[np.ndarray]
     return float(max(values, default=np.nan))
 
 
+def _relative_range(values: np.ndarray) -> float:
+    return np.ptp(values) / values.mean()
+
+
 def _growth_at(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase) -> float:
     coating, index = _run(evidence, case, speed)
     if coating.status[index] == "unbounded":
@@ -220,73 +224,43 @@ def _run(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase) -> t
     return coating, int(matches[0])
 
 
-def _speeds() -> Iterator[Target]:
-    read = float(np.hypot(_READING, _OTHER_BLADE))
-    for name, part, case, order, paper in (
-        ("f6_soft", "C4a", SOFT, 6, 0.21),
-        ("f4_soft", "C4b", SOFT, 4, 0.31),
-        ("f6_tilted", "C11a", TILTED, 6, TILTED_SPEED),
-        ("f6_straight", "C11b", STRAIGHT, 6, STRAIGHT_SPEED),
-    ):
-        yield Target(name, part, EQUAL, paper, read, partial(_peak_speed, case=case, order=order))
-    for name, part, speed in (("wear_0.26", "C3a", 0.26), ("wear_0.38", "C3b", 0.38)):
-        yield Target(name, part, EQUAL, speed, read, partial(_wear_maximum, speed=speed))
-    for name, part, order, speed in (("offset_0.26", "C3c", 5, 0.26), ("offset_0.38", "C3d", 4, 0.38)):
-        offset = partial(_vibration_offset, order=order, speed=speed)
-        yield Target(name, part, EQUAL, 0.0, _OTHER_BLADE, offset)
-
-
-def _worn_lobes() -> Iterator[Target]:
-    for part, (low, high) in zip(("C2a", "C2b"), FIVE_LOBES, strict=True):
-        dominance = partial(_dominance_between, low=low, high=high, harmonic=5, reduce=np.mean)
-        yield Target(f"five_{low:g}_{high:g}", part, AT_LEAST, 0.0, _SHARE, dominance)
-    for part, count, speed in (("C2c", 10, TEN_LOBES), ("C2d", 4, FOUR_LOBES)):
-        near = {"low": speed - NEAR, "high": speed + NEAR}
-        dominance = partial(_dominance_between, **near, harmonic=count, reduce=np.max)
-        yield Target(f"harmonic_{count}_{speed:g}", part, AT_LEAST, 0.0, _SHARE, dominance)
-
-
-def _heights() -> Iterator[Target]:
-    low = float(np.log(SIGNIFICANT))
-    yield Target("odd_over_even", "C4c", AT_MOST, low, 0.2, _odd_over_even)
-    yield Target("weakest_crossing", "C5c", AT_LEAST, low, 0.2, _weakest_crossing)
-    tilt = {"one": TILTED, "other": STRAIGHT}
-    for order, critical, tilted in ((4, "C5a", "C10a"), (6, "C5b", "C10b")):
-        softer = partial(_log_ratio, one=CRITICAL, other=SOFT, order=order)
-        yield Target(f"Y{order}_critical", critical, AT_LEAST, 0.0, _RATIO, softer)
-        straighter = partial(_log_ratio, **tilt, order=order)
-        yield Target(f"Y{order}_tilted", tilted, AT_MOST, 0.0, _RATIO, straighter)
-    yield Target("f4_shift", "C10c", AT_MOST, 0.0, _SHIFT, partial(_shift, **tilt, order=4))
-    shift = TILTED_SPEED - STRAIGHT_SPEED
-    yield Target("f6_shift", "C10d", EQUAL, shift, _SHIFT, partial(_shift, **tilt, order=6))
-
-
-def _moduli() -> Iterator[Target]:
-    rise = partial(_over_hardening, reduce=lambda f: f[-1] - f[0])
-    yield Target("f4_rise", "C7a", AT_LEAST, 0.0, _SHIFT, rise)
-    step = partial(_over_hardening, reduce=lambda f: np.diff(f).min())
-    yield Target("f4_step", "C7b", AT_LEAST, 0.0, _SHIFT, step)
-    spread = partial(_over_modulus, column="Y4", reduce=lambda height: np.ptp(height) / height.mean())
-    yield Target("Y4_spread", "C8a", AT_MOST, HARDLY["amplitude"], _RATIO, spread)
-    spread = partial(_over_modulus, column="f4", reduce=np.ptp)
-    yield Target("f4_spread", "C8b", AT_MOST, HARDLY["f_peak"], _SHIFT, spread)
-
-
-def _divergence() -> Iterator[Target]:
-    own = ((TILTED, TILTED_SPEED), (STRAIGHT, STRAIGHT_SPEED), (TILTED, TILTED), (STRAIGHT, STRAIGHT))
-    others = ((STRAIGHT, TILTED_SPEED), (TILTED, STRAIGHT_SPEED), (STRAIGHT, TILTED), (TILTED, STRAIGHT))
-    six = partial(_dominance_at, harmonic=6)
-    for name, letters, runs, relation, error, measure_at in (
-        ("growth", "abgh", own, AT_LEAST, _GROWTH, _growth_at),
-        ("growth", "cdij", others, AT_MOST, _GROWTH, _growth_at),
-        ("six", "efkl", own, AT_LEAST, _SHARE, six),
-    ):
-        for letter, (case, speed) in zip(letters, runs, strict=True):
-            part, measure_run = f"C11{letter}", partial(measure_at, case=case, speed=speed)
-            yield Target(f"{name}_{part}", part, relation, 0.0, error, measure_run)
-
-
-TARGETS = {
-    target.name: target for target in (*_worn_lobes(), *_speeds(), *_heights(), *_moduli(), *_divergence())
-}
+_TARGETS = (
+    ("five_0_0.08", "C2a", AT_LEAST, 0.0, _SHARE, _dominance_between, (5, np.mean, *LOBES[0])),
+    ("five_0.24_0.34", "C2b", AT_LEAST, 0.0, _SHARE, _dominance_between, (5, np.mean, *LOBES[1])),
+    ("harmonic_10_0.1", "C2c", AT_LEAST, 0.0, _SHARE, _dominance_between, (10, np.max, *LOBES[2])),
+    ("harmonic_4_0.38", "C2d", AT_LEAST, 0.0, _SHARE, _dominance_between, (4, np.max, *LOBES[3])),
+    ("f6_soft", "C4a", EQUAL, 0.21, _SPEED, _peak_speed, (SOFT, 6)),
+    ("f4_soft", "C4b", EQUAL, 0.31, _SPEED, _peak_speed, (SOFT, 4)),
+    ("f6_tilted", "C11a", EQUAL, TILTED_SPEED, _SPEED, _peak_speed, (TILTED, 6)),
+    ("f6_straight", "C11b", EQUAL, STRAIGHT_SPEED, _SPEED, _peak_speed, (STRAIGHT, 6)),
+    ("wear_0.26", "C3a", EQUAL, 0.26, _SPEED, _wear_maximum, (0.26,)),
+    ("wear_0.38", "C3b", EQUAL, 0.38, _SPEED, _wear_maximum, (0.38,)),
+    ("offset_0.26", "C3c", EQUAL, 0.0, _OTHER_BLADE, _vibration_offset, (5, 0.26)),
+    ("offset_0.38", "C3d", EQUAL, 0.0, _OTHER_BLADE, _vibration_offset, (4, 0.38)),
+    ("odd_over_even", "C4c", AT_MOST, _SIGNIFICANT, 0.2, _odd_over_even, ()),
+    ("weakest_crossing", "C5c", AT_LEAST, _SIGNIFICANT, 0.2, _weakest_crossing, ()),
+    ("Y4_critical", "C5a", AT_LEAST, 0.0, _RATIO, _log_ratio, (CRITICAL, SOFT, 4)),
+    ("Y4_tilted", "C10a", AT_MOST, 0.0, _RATIO, _log_ratio, (TILTED, STRAIGHT, 4)),
+    ("Y6_critical", "C5b", AT_LEAST, 0.0, _RATIO, _log_ratio, (CRITICAL, SOFT, 6)),
+    ("Y6_tilted", "C10b", AT_MOST, 0.0, _RATIO, _log_ratio, (TILTED, STRAIGHT, 6)),
+    ("f4_shift", "C10c", AT_MOST, 0.0, _SHIFT, _shift, (TILTED, STRAIGHT, 4)),
+    ("f6_shift", "C10d", EQUAL, TILTED_SPEED - STRAIGHT_SPEED, _SHIFT, _shift, (TILTED, STRAIGHT, 6)),
+    ("f4_rise", "C7a", AT_LEAST, 0.0, _SHIFT, _over_hardening, (lambda f: f[-1] - f[0],)),
+    ("f4_step", "C7b", AT_LEAST, 0.0, _SHIFT, _over_hardening, (lambda f: np.diff(f).min(),)),
+    ("Y4_spread", "C8a", AT_MOST, HARDLY["amplitude"], _RATIO, _over_modulus, ("Y4", _relative_range)),
+    ("f4_spread", "C8b", AT_MOST, HARDLY["f_peak"], _SHIFT, _over_modulus, ("f4", np.ptp)),
+    ("growth_C11a", "C11a", AT_LEAST, 0.0, _GROWTH, _growth_at, (TILTED, TILTED_SPEED)),
+    ("growth_C11b", "C11b", AT_LEAST, 0.0, _GROWTH, _growth_at, (STRAIGHT, STRAIGHT_SPEED)),
+    ("growth_C11g", "C11g", AT_LEAST, 0.0, _GROWTH, _growth_at, (TILTED, TILTED)),
+    ("growth_C11h", "C11h", AT_LEAST, 0.0, _GROWTH, _growth_at, (STRAIGHT, STRAIGHT)),
+    ("growth_C11c", "C11c", AT_MOST, 0.0, _GROWTH, _growth_at, (STRAIGHT, TILTED_SPEED)),
+    ("growth_C11d", "C11d", AT_MOST, 0.0, _GROWTH, _growth_at, (TILTED, STRAIGHT_SPEED)),
+    ("growth_C11i", "C11i", AT_MOST, 0.0, _GROWTH, _growth_at, (STRAIGHT, TILTED)),
+    ("growth_C11j", "C11j", AT_MOST, 0.0, _GROWTH, _growth_at, (TILTED, STRAIGHT)),
+    ("six_C11e", "C11e", AT_LEAST, 0.0, _SHARE, _dominance_at, (TILTED, TILTED_SPEED, 6)),
+    ("six_C11f", "C11f", AT_LEAST, 0.0, _SHARE, _dominance_at, (STRAIGHT, STRAIGHT_SPEED, 6)),
+    ("six_C11k", "C11k", AT_LEAST, 0.0, _SHARE, _dominance_at, (TILTED, TILTED, 6)),
+    ("six_C11l", "C11l", AT_LEAST, 0.0, _SHARE, _dominance_at, (STRAIGHT, STRAIGHT, 6)),
+)
+TARGETS = {row[0]: Target(*row) for row in _TARGETS}
 """What is matched by name, in the order of the tables."""

@@ -1,0 +1,39 @@
+"""Tabulate and draw the chart: its quantities, what the limits leave, and what its peaks follow."""
+
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+from bladerub.blade.validation import read_reduced_blade
+from bladerub.extras.chart import ridge, stiffening
+from bladerub.extras.chart.choice import broken_limits, pareto, recommended
+from bladerub.extras.chart.stress import read_chart
+from bladerub.extras.chart.table import read_points
+from bladerub.extras.plots.chart_moduli import chart_map, chart_safe
+from bladerub.extras.plots.chart_pareto import chart_pareto
+from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
+from bladerub.settings.study import typed
+from bladerub.workflow import outputs
+
+config, unit = typed(snakemake.config), snakemake.params.modulus_unit
+chart, limits = read_chart(*snakemake.input.tables), config.chart.limits
+points = list(read_points(snakemake.input.manifests))
+ridges, peaks = ridge.table(config, points), stiffening.explanation(config, points)
+front, speeds = pareto(chart, limits), stiffening.table(peaks, read_reduced_blade(snakemake.input.blade))
+outputs.save(
+    snakemake,
+    pareto=front,
+    choice=recommended(chart, limits),
+    ridge=ridges,
+    ridge_summary=ridge.summary(ridges),
+    explanation=peaks,
+    stiffening=speeds,
+)
+figures = {quantity: chart_map(chart, quantity, unit) for quantity in snakemake.params.quantities} | {
+    "safe": chart_safe(chart, broken_limits(chart, limits), limits, unit),
+    "pareto": chart_pareto(chart, front),
+    "explanation": chart_explanation(peaks, unit),
+    "stiffening": chart_stiffening(peaks, speeds, unit),
+}
+for name, figure in figures.items():
+    outputs.save(snakemake, figure, f"chart_{name}_")
