@@ -8,6 +8,8 @@ PLANS = {
     "identification": "config/identification.yaml",
 }
 OF_SETS = f"{RESULTS}/identification"
+LEFT_TABLES = ["left", "emulators", "ranges", "next_sets", "predictions"]  # of each wave
+SUMMED = ["sets", "waves", "emulators", "targets", "ranges", "exclusions", "candidates", "counts", "verdicts"]
 
 
 @cache
@@ -42,13 +44,26 @@ def determining_sets(kind, job):
         return determinants(STUDY, plan, plan.jobs()[job])
 
 
-def of_jobs(kind, file, *folders):
+def of_jobs(kind, file, folders=""):
     """What the jobs of a plan, or those whose name begins with one of the folders, write under that name."""
-    return [
-        f"{RESULTS}/{kind}/{job}/{file}"
-        for job in variations_plan(kind).jobs()
-        if job.startswith(folders or "")
-    ]
+    jobs = variations_plan(kind).jobs()
+    return [f"{RESULTS}/{kind}/{job}/{file}" for job in jobs if job.startswith(folders)]
+
+
+def wave_folders(wildcards):
+    """Folders of the waves up to that of a job, of all if it is of none."""
+    last = int(wildcards.get("wave", len(identification_plan().waves)))
+    return tuple(f"wave{wave}/" for wave in range(1, last + 1))
+
+
+def of_waves(file):
+    """What there is of these waves under that name."""
+    return lambda wildcards: [f"{OF_SETS}/{folder}{file}" for folder in wave_folders(wildcards)]
+
+
+def of_sets(file):
+    """What all jobs of these waves write under that name."""
+    return lambda wildcards: of_jobs("identification", file, wave_folders(wildcards))
 
 
 def drawn_sets(wildcards):
@@ -97,9 +112,7 @@ rule variation:
         simulating=files_behind("extras.variations.job", "study.findings"),
     output:
         **described(
-            verdicts=f"{RESULTS}/{{kind}}/{{job}}/verdicts.csv",
-            quantities=f"{RESULTS}/{{kind}}/{{job}}/quantities.csv",
-            cost=f"{RESULTS}/{{kind}}/{{job}}/cost.csv",
+            **{name: f"{RESULTS}/{{kind}}/{{job}}/{name}.csv" for name in ("verdicts", "quantities", "cost")}
         ),
     log:
         f"{RESULTS}/logs/{{kind}}/{{job}}.log",
@@ -165,22 +178,6 @@ rule robustness:
         "scripts/robustness.py"
 
 
-def waves_up_to(last=None):
-    """Numbers of the waves up to one, of all of the plan without it."""
-    return range(1, (last or len(identification_plan().waves)) + 1)
-
-
-def of_waves(file, last=None):
-    """What there is of these waves under that name."""
-    return [f"{OF_SETS}/wave{wave}/{file}" for wave in waves_up_to(last)]
-
-
-def of_sets(file, last=None):
-    """What all jobs of these waves write under that name."""
-    folders = [f"wave{wave}/" for wave in waves_up_to(last)]
-    return of_jobs("identification", file, *folders)
-
-
 rule identification_wave:
     input:
         next_sets=lambda wildcards: (
@@ -206,17 +203,11 @@ rule identification_wave:
 
 rule identification_left:
     input:
-        sets=lambda wildcards: of_waves("sets.csv", int(wildcards.wave)),
-        quantities=lambda wildcards: of_sets("quantities.csv", int(wildcards.wave)),
+        sets=of_waves("sets.csv"),
+        quantities=of_sets("quantities.csv"),
         drawing=files_behind("extras.variations.waves"),
     output:
-        **described(
-            left=f"{OF_SETS}/wave{{wave}}/left.csv",
-            emulators=f"{OF_SETS}/wave{{wave}}/emulators.csv",
-            ranges=f"{OF_SETS}/wave{{wave}}/ranges.csv",
-            next_sets=f"{OF_SETS}/wave{{wave}}/next_sets.csv",
-            predictions=f"{OF_SETS}/wave{{wave}}/predictions.csv",
-        ),
+        **described(**{name: f"{OF_SETS}/wave{{wave}}/{name}.csv" for name in LEFT_TABLES}),
     log:
         f"{RESULTS}/logs/identification_left/{{wave}}.log",
     wildcard_constraints:
@@ -234,9 +225,9 @@ rule identification_left:
 
 rule identification_candidates:
     input:
-        sets=lambda wildcards: of_waves("sets.csv"),
-        quantities=lambda wildcards: of_sets("quantities.csv"),
-        verdicts=lambda wildcards: of_sets("verdicts.csv"),
+        sets=of_waves("sets.csv"),
+        quantities=of_sets("quantities.csv"),
+        verdicts=of_sets("verdicts.csv"),
         choosing=files_behind("extras.variations.candidates"),
     output:
         **described(candidates=f"{OF_SETS}/candidates/candidates.csv"),
@@ -256,14 +247,9 @@ rule identification_candidates:
 
 rule identify:
     input:
-        sets=lambda wildcards: of_waves("sets.csv"),
-        quantities=lambda wildcards: of_sets("quantities.csv"),
-        verdicts=lambda wildcards: of_sets("verdicts.csv"),
-        left=lambda wildcards: of_waves("left.csv"),
-        emulators=lambda wildcards: of_waves("emulators.csv"),
-        ranges=lambda wildcards: of_waves("ranges.csv"),
-        next_sets=lambda wildcards: of_waves("next_sets.csv"),
-        predictions=lambda wildcards: of_waves("predictions.csv"),
+        **{name: of_waves(f"{name}.csv") for name in ["sets", *LEFT_TABLES]},
+        quantities=of_sets("quantities.csv"),
+        verdicts=of_sets("verdicts.csv"),
         candidates=rules.identification_candidates.output.candidates,
         judged=lambda wildcards: of_jobs("identification", "verdicts.csv", "candidates/"),
         plan=PLANS["identification"],
@@ -271,22 +257,7 @@ rule identify:
         drawing=files_behind("extras.variations.figures", "plots.style"),
     output:
         **drawn("identification", "Claims"),
-        **described(
-            **{
-                name: f"{TABLES}/identification_{name}.csv"
-                for name in (
-                    "sets",
-                    "waves",
-                    "emulators",
-                    "targets",
-                    "ranges",
-                    "exclusions",
-                    "candidates",
-                    "counts",
-                    "verdicts",
-                )
-            }
-        ),
+        **described(**{name: f"{TABLES}/identification_{name}.csv" for name in SUMMED}),
     log:
         f"{RESULTS}/logs/identify.log",
     resources:
