@@ -14,13 +14,12 @@ from bladerub.workflow import outputs
 
 kind, name, path = snakemake.wildcards.kind, snakemake.wildcards.job, snakemake.params.plan
 plan = read(kind, path)
+positions = None
 if name.startswith("candidates/"):
     positions = dict(enumerate(candidates.read(snakemake.input.sets).to_numpy()))
 elif snakemake.input.sets:
     drawn = waves.read([snakemake.input.sets])
     positions = dict(zip(drawn.index, drawn.to_numpy(), strict=True))
-else:
-    positions = waves.known(plan)
 results = judge(
     cases(typed(snakemake.config), plan, plan.jobs()[name], positions),
     snakemake.params.blades,
@@ -28,4 +27,4 @@ results = judge(
     report=job.log,
 )
 origin = provenance({**snakemake.config, kind: configuration.load(path)})
-outputs.save(snakemake, origin=origin, **results._asdict())
+outputs.save(snakemake, origin=origin, **results)

@@ -6,7 +6,8 @@ import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from functools import reduce
+from operator import getitem
 
 from bladerub.config.errors import UNKNOWN, ConfigError, Location
 from bladerub.config.files import Located
@@ -33,10 +34,7 @@ class Factor:
 
     def own(self, config: Config) -> float:
         """Return the value that a config has of the first number."""
-        value: Any = config.plain()
-        for key in _keys(next(iter(self.ranges))):
-            value = value[key]
-        return float(value)
+        return float(reduce(getitem, _keys(next(iter(self.ranges))), config.plain()))
 
     def position(self, value: float) -> float:
         """Return the position of a value of the first number; one outside the range lies at its end."""

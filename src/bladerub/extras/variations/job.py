@@ -1,5 +1,6 @@
 """One kind of job: the small study of each of some sets of inputs, its verdicts and measures."""
 
+import itertools
 import math
 import time
 from collections.abc import Callable, Iterable, Mapping
@@ -53,28 +54,24 @@ class Case(NamedTuple):
         return configuration.validate(self.config, name)
 
 
-class Judged(NamedTuple):
-    """What some sets show: tables with `VERDICTS`, `QUANTITIES` and `COST`."""
-
-    verdicts: pd.DataFrame
-    quantities: pd.DataFrame
-    cost: pd.DataFrame
-
-
 def cases(
-    study: Config, plan: Plan, job: Job, positions: Mapping[str | int, np.ndarray | None]
+    study: Config, plan: Plan, job: Job, positions: Mapping[str | int, np.ndarray | None] | None = None
 ) -> list[Case]:
     """Make the config of each small study of a job, from the `study` that is varied.
 
     `positions` (d,) in the ranges of the factors are by set, None for the study's own values; a set that has
-    none is left out. Raises `ConfigError` if a factor sets what the study does not have.
+    none is left out. Without them they are those of the plan or, where it has none, the study's own values.
+    Raises `ConfigError` if a factor sets what the study does not have.
     """
-    return [
-        Case(name, part, _varied(study, plan, part, positions[name]))
-        for name in job.sets
-        for part in job.parts
-        if name in positions
-    ]
+    positions = positions or dict.fromkeys(job.sets) | known(plan)
+    small_studies = []
+    for name, part in itertools.product(job.sets, job.parts):
+        if name in positions:
+            config = configuration.vary(study, *part.study)
+            if positions[name] is not None:
+                config = lay_over(config, plan.factors, positions[name])
+            small_studies.append(Case(name, part, config))
+    return small_studies
 
 
 # Threads take longer than the splines of a blade's sections
@@ -84,7 +81,7 @@ def check(study: Config, plan: Plan) -> None:
 
     The problems of all sets that are listed are reported together, of those that are drawn the first.
     """
-    jobs, positions = plan.jobs().values(), known(plan)
+    jobs, positions = plan.jobs().values(), None
     if plan.candidates:
         positions = dict(enumerate(plan.listed(study)))
         jobs = [Job(tuple(positions), (*plan.parts.values(), plan.candidates.part))]
@@ -106,13 +103,9 @@ def determinants(study: Config, plan: Plan, job: Job) -> list[Any]:
 
     Sets whose positions the plan does not have stand there with the study's own values, beside the factors.
     """
-    positions = known(plan) or dict.fromkeys(job.sets)
-    factors = [] if known(plan) else [(f.name, f.ranges, f.logarithmic, f.multiple_of) for f in plan.factors]
-    digests = [
-        (case.set, case.part.claims, digest(typed(case.config.plain())))
-        for case in cases(study, plan, job, positions)
-    ]
-    return [*digests, *factors]
+    small_studies = cases(study, plan, job)
+    digests = [(case.set, case.part.claims, digest(typed(case.config.plain()))) for case in small_studies]
+    return digests if known(plan) else [*digests, *plan.ranges]
 
 
 def digest(config: Config) -> str:
@@ -126,7 +119,7 @@ def digest(config: Config) -> str:
 def minutes(study: Config, plan: Plan, job: Job) -> int:
     """Return the time to ask a cluster for: a minute a set, and three times what the revolutions took."""
     revolutions = 0.0
-    for case in cases(study, plan, job, known(plan) or dict.fromkeys(job.sets)):
+    for case in cases(study, plan, job):
         config = typed(case.config.plain())
         runs = len(coating_cases(config)) * len(speeds(config))
         scale = config.contact.elements / study.contact.elements
@@ -139,9 +132,10 @@ def judge(
     blades: str | Path,
     folder: str | Path | None = None,
     report: Callable[[object], None] = lambda line: None,
-) -> Judged:
+) -> dict[str, pd.DataFrame]:
     """Make the small study of each case, judge the claims of its part and measure their targets.
 
+    Returns the tables ``verdicts``, ``quantities`` and ``cost``, with `VERDICTS`, `QUANTITIES` and `COST`.
     Each blade is built once in a folder of `blades`. `folder`, for the only case, keeps runs, maps, peaks and
     divergence; without it they are in memory alone. `report` is as of `bladerub.study.job.compute_missing`.
     Raises `ConfigError` if the values of a case make no study together.
@@ -160,11 +154,11 @@ def judge(
         for name in ("peaks", "divergence") if folder else ():
             path, origin = Path(folder) / "tables" / f"{name}.csv", provenance(config.plain())
             tables.write(path, getattr(study, name), origin)
-    return Judged(
-        pd.concat(verdicts, ignore_index=True),
-        pd.DataFrame(quantities, columns=QUANTITIES),
-        pd.DataFrame(cost, columns=COST),
-    )
+    return {
+        "verdicts": pd.concat(verdicts, ignore_index=True),
+        "quantities": pd.DataFrame(quantities, columns=QUANTITIES),
+        "cost": pd.DataFrame(cost, columns=COST),
+    }
 
 
 def blade_of(config: Config, blades: str | Path, report: Callable[[object], None]) -> Path:
@@ -181,8 +175,3 @@ def read(paths: Iterable[str | Path], columns: list[str]) -> pd.DataFrame:
     """Read a table of several jobs as one, with `columns`."""
     jobs = [tables.read(path, columns) for path in paths]
     return pd.concat([job for job in jobs if len(job)] or jobs[:1], ignore_index=True)
-
-
-def _varied(study: Config, plan: Plan, part: Part, position: np.ndarray | None) -> Located:
-    varied = configuration.vary(study, *part.study)
-    return varied if position is None else lay_over(varied, plan.factors, position)

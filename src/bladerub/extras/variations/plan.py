@@ -124,10 +124,14 @@ class Plan:
         sets = [own, *(own | values for values in self.sets.values())]
         return np.array([[f.position(values[f.name]) for f in self.factors] for values in sets])
 
+    @property
+    def ranges(self) -> list[tuple]:
+        """What of the factors determines their values."""
+        return [(f.name, f.ranges, f.logarithmic, f.multiple_of) for f in self.factors]
+
     def sampling(self, study: Config) -> dict[str, Any]:
         """Return all but results of earlier waves that determines the sets of an identification."""
-        factors = [(f.name, f.ranges, f.logarithmic, f.multiple_of) for f in self.factors]
-        return {"seed": self.seed, "factors": factors, "listed": self.listed(study).tolist()}
+        return {"seed": self.seed, "factors": self.ranges, "listed": self.listed(study).tolist()}
 
 
 def read(kind: str, path: str | Path, key: str | None = None) -> Plan:

@@ -18,7 +18,7 @@ import pandas as pd
 from scipy.spatial.distance import cdist
 from scipy.stats import qmc
 
-from bladerub.extras.variations.plan import REFERENCE, Plan
+from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
 from bladerub.io.tables import read as read_table
 from bladerub.settings.study import Config
@@ -57,14 +57,12 @@ def design(plan: Plan) -> np.ndarray:
     return _spread(plan, np.random.default_rng(plan.seed), plan.waves[0])
 
 
-def known(plan: Plan) -> dict[str | int, np.ndarray | None]:
-    """Return the position (d,) of each set of a calibration or robustness; None with the study's own values.
+def known(plan: Plan) -> dict[int, np.ndarray]:
+    """Return the position (d,) of each sample of a robustness.
 
     Those of an identification are in tables, because later waves depend on the results of earlier ones.
     """
-    if plan.candidates:
-        return {}
-    return {REFERENCE: None, **dict(enumerate(design(plan)))} if plan.factors else dict.fromkeys(plan.parts)
+    return dict(enumerate(design(plan))) if plan.factors and not plan.candidates else {}
 
 
 def first(plan: Plan, study: Config) -> np.ndarray:

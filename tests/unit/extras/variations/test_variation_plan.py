@@ -16,7 +16,7 @@ from bladerub.extras.variations import job
 from bladerub.extras.variations.factors import Factor
 from bladerub.extras.variations.job import cases, check, determinants
 from bladerub.extras.variations.plan import REFERENCE, Job, Part, Plan, read
-from bladerub.extras.variations.waves import design, known
+from bladerub.extras.variations.waves import design
 from bladerub.io.folders import ROOT
 
 PLAN = {
@@ -37,7 +37,7 @@ PLAN = {
 
 
 def configs_of(study, plan, *jobs):
-    of_jobs = [cases(study, plan, plan.jobs()[job], known(plan)) for job in jobs]
+    of_jobs = [cases(study, plan, plan.jobs()[job]) for job in jobs]
     return {case.set: case.config.plain() for case in itertools.chain(*of_jobs)}
 
 
@@ -136,7 +136,7 @@ def sets_of(config):
     listed = read("calibration", config.calibration, "calibration")
     check(config, listed)
     jobs = listed.jobs().values()
-    return {case.set: case.checked() for job in jobs for case in cases(config, listed, job, known(listed))}
+    return {case.set: case.checked() for job in jobs for case in cases(config, listed, job)}
 
 
 def test_each_set_is_laid_over_what_is_common_and_that_over_a_file(config, tmp_path):
@@ -201,9 +201,9 @@ def test_each_set_has_verdicts_measures_and_cost_and_equal_blades_are_built_once
     plan = Plan({each.name: each for each in parts}, (CONE,))
     positions = {7: np.array([0.0]), 8: np.array([1.0]), 9: np.array([0.9])}
     found = job.judge(job.cases(config, plan, Job(range(7, 11), parts), positions), tmp_path)
-    assert list(found.verdicts["set"]) == [7, 7, 8, 8, 9, 9]
-    assert list(found.verdicts.margin) == [11, 11, 15, 15, 15, 15]
-    assert found.quantities.to_numpy().tolist()[:2] == [[7, "of_C4", 1.0], [7, "of_C12", 1.0]]
-    costs = found.cost[["part", "set", "runs"]].to_numpy().tolist()
+    assert list(found["verdicts"]["set"]) == [7, 7, 8, 8, 9, 9]
+    assert list(found["verdicts"].margin) == [11, 11, 15, 15, 15, 15]
+    assert found["quantities"].to_numpy().tolist()[:2] == [[7, "of_C4", 1.0], [7, "of_C12", 1.0]]
+    costs = found["cost"][["part", "set", "runs"]].to_numpy().tolist()
     assert costs[:3] == [["soft", 7, 11], ["stiff", 7, 11], ["soft", 8, 15]]
     assert built == [11, 15]  # two of the three sets round to the same cone
