@@ -31,12 +31,7 @@ _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusi
 
 def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Read the targets of all jobs: a row for each set, a column for each target, in their order."""
-    return wide(read_jobs(paths, QUANTITIES))
-
-
-def wide(quantities: pd.DataFrame) -> pd.DataFrame:
-    """Return the measured targets (columns, in their order) of each set (rows)."""
-    table = quantities.pivot(index="set", columns="target", values="value")
+    table = read_jobs(paths, QUANTITIES).pivot(index="set", columns="target", values="value")
     return table[[name for name in TARGETS if name in table]]
 
 

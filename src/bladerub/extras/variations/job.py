@@ -63,7 +63,8 @@ def cases(
     none is left out. Without them they are those of the plan or, where it has none, the study's own values.
     Raises `ConfigError` if a factor sets what the study does not have.
     """
-    positions = positions or dict.fromkeys(job.sets) | known(plan)
+    if positions is None:
+        positions = dict.fromkeys(job.sets) | known(plan)
     small_studies = []
     for name, part in itertools.product(job.sets, job.parts):
         if name in positions:

@@ -120,7 +120,9 @@ def test_a_target_is_missed_on_the_sides_of_its_relation(relation, expected):
     assert np.isnan(target.excess(np.array([np.nan]))).all()
 
 
-def test_the_deviation_of_a_prediction_makes_a_set_more_plausible_and_quantities_become_a_row_a_set():
+def test_the_deviation_of_a_prediction_makes_a_set_more_plausible_and_quantities_become_a_row_a_set(
+    tmp_path,
+):
     rng = np.random.default_rng(0)
     positions = rng.random((40, 2))
     target = TARGETS["f4_soft"]
@@ -132,7 +134,8 @@ def test_the_deviation_of_a_prediction_makes_a_set_more_plausible_and_quantities
     assert unsure.f4_soft.median() < 4
     names = list(TARGETS)[3:0:-2]
     long = pd.DataFrame({"set": [7, 7, 2, 2], "target": names * 2, "value": [1.0, 2.0, 3.0, 4.0]})
-    table = identification.wide(long)
+    long.to_csv(tmp_path / "quantities.csv", index=False)
+    table = identification.measured([tmp_path / "quantities.csv"])
     assert list(table.columns) == names[::-1]
     assert list(table.index) == [2, 7]
     assert table.loc[7, names[0]] == 1.0
