@@ -40,8 +40,7 @@ def determining_sets(kind, job):
     from bladerub.extras.variations.job import determinants
 
     plan = variations_plan(kind)
-    with bladerub.io.errors.exit_on_error():
-        return determinants(STUDY, plan, plan.jobs()[job])
+    return determinants(STUDY, plan, plan.jobs()[job])
 
 
 def of_jobs(kind, file, folders=""):

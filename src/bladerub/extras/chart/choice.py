@@ -25,8 +25,9 @@ def broken_limits(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
 
     What is not known, such as the stress of runs that complete no revolution, is not within its limit.
     """
-    given_limits = {name: limit for name, limit in limits if limit is not None}
-    return pd.DataFrame({name: ~(chart[LIMITED[name]] <= limit) for name, limit in given_limits.items()})
+    return pd.DataFrame(
+        {name: ~(chart[LIMITED[name]] <= limit) for name, limit in limits if limit is not None}
+    )
 
 
 def pareto(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:

@@ -113,8 +113,7 @@ def sought(config: Config, response: Response, peak: np.ndarray) -> dict[str, np
 
     `peak` (n,) is the greatest displacement at each speed, m.
     """
-    settings = config.analysis.peaks
-    orders = chart_orders(config)
+    settings, orders = config.analysis.peaks, chart_orders(config)
     amplitudes = {f"Y{order}": amplitude_in_window(response, order, settings) for order in orders}
     return amplitudes | {"peak": peak}
 

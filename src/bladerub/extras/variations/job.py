@@ -85,7 +85,7 @@ def check(study: Config, plan: Plan) -> None:
     jobs, positions = plan.jobs().values(), None
     if plan.candidates:
         positions = dict(enumerate(plan.listed(study)))
-        jobs = [Job(tuple(positions), (*plan.parts.values(), plan.candidates.part))]
+        jobs = [Job(tuple(positions), (*plan.parts.values(), plan.finer))]
     problems = []
     for job in jobs:
         for case in cases(study, plan, job, positions):

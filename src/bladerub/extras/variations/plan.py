@@ -18,8 +18,8 @@ from bladerub.config import files
 from bladerub.config.errors import UNKNOWN, ConfigError, Location
 from bladerub.config.files import Located
 from bladerub.extras import plans
+from bladerub.extras.variations import settings
 from bladerub.extras.variations.factors import Factor, read_factors
-from bladerub.extras.variations.settings import CalibrationPlan, IdentificationPlan, RobustnessPlan
 from bladerub.io.errors import format_value
 from bladerub.settings.study import Config
 
@@ -51,21 +51,6 @@ class Job(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Candidates:
-    """The best sets of all waves, which are judged by all claims on a finer grid."""
-
-    number: int
-    neighbours: int  # of each
-    shift: float  # of every factor of a neighbour, up or down, as a share of its range
-    part: Part
-
-    @property
-    def pairs(self) -> list[tuple[int, int]]:
-        """Candidate and neighbour of each finer study; candidate 0 has the study's own values."""
-        return list(itertools.product(range(self.number + 1), range(self.neighbours + 1)))
-
-
-@dataclass(frozen=True)
 class Plan:
     """A plan as read: `parts` and, if they are drawn, `factors`."""
 
@@ -76,7 +61,8 @@ class Plan:
     # of an identification: sets of the first wave, values by factor, the study's for others
     sets: dict[str, dict[str, float]] = field(default_factory=dict)
     remaining: float = 0.0  # share of the ranges that must be left, or a target is given up
-    candidates: Candidates | None = None
+    candidates: settings.CandidateSettings | None = None
+    finer: Part | None = None  # the study by which candidates are judged
 
     def size(self, wave: int) -> int:
         """Count the sets of a wave, from 1; the first has the study's own and the given ones as well."""
@@ -90,7 +76,7 @@ class Plan:
         """Return every job by its name, which is that of the folder of its tables as well."""
         if self.candidates:
             return self._waves() | {
-                f"candidates/{candidate}_{neighbour}": Job((number,), (self.candidates.part,))
+                f"candidates/{candidate}_{neighbour}": Job((number,), (self.finer,))
                 for number, (candidate, neighbour) in enumerate(self.candidates.pairs)
             }
         if self.factors:
@@ -141,9 +127,9 @@ def read(kind: str, path: str | Path, key: str | None = None) -> Plan:
     line, key, value and what would be right.
     """
     model, reader = {
-        "calibration": (CalibrationPlan, partial(_calibration, Path(path).parent)),
-        "robustness": (RobustnessPlan, _robustness),
-        "identification": (IdentificationPlan, _identification),
+        "calibration": (settings.CalibrationPlan, partial(_calibration, Path(path).parent)),
+        "robustness": (settings.RobustnessPlan, _robustness),
+        "identification": (settings.IdentificationPlan, _identification),
     }[kind]
     return reader(plans.read_plan(path, model, key).content)
 
@@ -180,8 +166,7 @@ def _robustness(content: Mapping[str, Located]) -> Plan:
 
 
 def _identification(content: Mapping[str, Located]) -> Plan:
-    factors, candidates = read_factors(content["factors"]), content["candidates"].content
-    numbers = {key: candidates[key].plain() for key in ("number", "neighbours", "shift")}
+    factors, chosen = read_factors(content["factors"]), content["candidates"].content
     plan = Plan(
         parts={name: _part(name, entry) for name, entry in content["parts"].content.items()},
         factors=factors,
@@ -189,7 +174,8 @@ def _identification(content: Mapping[str, Located]) -> Plan:
         waves=tuple(content["waves"].plain()),
         sets={name: _listed(name, entry, factors) for name, entry in content["sets"].content.items()},
         remaining=content["remaining"].plain(),
-        candidates=Candidates(**numbers, part=Part("candidates", (candidates["study"],))),
+        candidates=settings.CandidateSettings(**content["candidates"].plain()),
+        finer=Part("candidates", (chosen["study"],)),
     )
     if (missing := FEWEST - plan.size(1)) > 0:
         raise ConfigError.at(
@@ -197,9 +183,9 @@ def _identification(content: Mapping[str, Located]) -> Plan:
             f"waves = {format_value(list(plan.waves))}: the first must be at least "
             f"{plan.waves[0] + missing}, or no target has an emulator after it",
         )
-    if (number := numbers["number"]) > (most := plan.first(len(plan.waves) + 1) - 1):
+    if (number := plan.candidates.number) > (most := plan.first(len(plan.waves) + 1) - 1):
         text = f"candidates.number = {number}: must be at most {most}, the sets of all waves but the study's"
-        raise ConfigError.at(candidates["number"].location, text)
+        raise ConfigError.at(chosen["number"].location, text)
     return plan
 
 

@@ -37,26 +37,25 @@ def indices(positions: np.ndarray, output: np.ndarray) -> Indices:
 
     They are NaN if all of `output` is the same, and of fewer samples than `FEWEST`.
     """
-    n_factors = positions.shape[1]
+    factors = range(positions.shape[1])
     if output.size < FEWEST or np.ptp(output) == 0:
-        nothing = np.full(n_factors, np.nan)
-        return Indices(nothing, nothing, np.nan)
+        return Indices(*np.full((2, len(factors)), np.nan), np.nan)
     sobol = openturns.FunctionalChaosSobolIndices(_expansion(positions, output))
-    first = [sobol.getSobolIndex(factor) for factor in range(n_factors)]
-    total = [sobol.getSobolTotalIndex(factor) for factor in range(n_factors)]
     predicted = max(_predicted(positions, output), 0.0)
-    return Indices(predicted * np.array(first), predicted * np.array(total), predicted)
+    first = predicted * np.array([sobol.getSobolIndex(factor) for factor in factors])
+    total = predicted * np.array([sobol.getSobolTotalIndex(factor) for factor in factors])
+    return Indices(first, total, predicted)
 
 
 def _predicted(positions: np.ndarray, output: np.ndarray) -> float:
-    missed = np.empty_like(output, dtype=float)
+    predicted = np.empty_like(output, dtype=float)
     for inside, outside in folds(output.size):
         if np.ptp(output[inside]) == 0:
-            missed[outside] = output[outside] - output[inside][0]
-            continue
-        model = _expansion(positions[inside], output[inside]).getMetaModel()
-        missed[outside] = output[outside] - np.array(model(positions[outside])).ravel()
-    return float(1 - np.mean(missed**2) / np.var(output))
+            predicted[outside] = output[inside][0]
+        else:
+            model = _expansion(positions[inside], output[inside]).getMetaModel()
+            predicted[outside] = np.array(model(positions[outside])).ravel()
+    return float(1 - np.mean((output - predicted) ** 2) / np.var(output))
 
 
 def _expansion(positions: np.ndarray, output: np.ndarray) -> openturns.FunctionalChaosResult:

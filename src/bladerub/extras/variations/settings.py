@@ -1,5 +1,6 @@
 """What a config says of a calibration, and what the plans of variations hold."""
 
+import itertools
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
@@ -106,6 +107,11 @@ class CandidateSettings(Section):
     shift: Number = Field(gt=0, le=0.5)
     """Of every factor of a neighbour, up or down, as a share of its range."""
     study: Variation
+
+    @property
+    def pairs(self) -> list[tuple[int, int]]:
+        """Candidate and neighbour of each finer study; candidate 0 has the study's own values."""
+        return list(itertools.product(range(self.number + 1), range(self.neighbours + 1)))
 
 
 class IdentificationPlan(Section):

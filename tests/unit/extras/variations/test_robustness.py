@@ -11,7 +11,8 @@ from bladerub.extras.variations import robustness as summary
 from bladerub.extras.variations.emulator import Emulator, compared, held_out
 from bladerub.extras.variations.factors import Factor, lay_over
 from bladerub.extras.variations.figures import robustness
-from bladerub.extras.variations.plan import Candidates, Part, Plan
+from bladerub.extras.variations.plan import Part, Plan
+from bladerub.extras.variations.settings import CandidateSettings
 from bladerub.extras.variations.targets import AT_LEAST, AT_MOST, EQUAL, TARGETS, Target
 from bladerub.extras.variations.verdicts import verdicts as marks_of
 
@@ -150,7 +151,8 @@ def plan():
     unit = Factor("unit", "Pa", {"contact.modulus_unit": (2e8, 1e9)})
     hub = Factor("hub", "m", {"blade.hub_radius": (0.3, 0.6)})
     peaks, finer = Part("peaks", (EMPTY,), ("C4",)), Part("candidates", (EMPTY,))
-    chosen = {"sets": {"soft": {"unit": 2e8}}, "candidates": Candidates(2, 3, 0.02, finer)}
+    best = CandidateSettings(number=2, neighbours=3, shift=0.02, study={})
+    chosen = {"sets": {"soft": {"unit": 2e8}}, "candidates": best, "finer": finer}
     return Plan({"peaks": peaks}, (unit, hub), seed=5, waves=(32, 8), remaining=0.01, **chosen)
 
 
