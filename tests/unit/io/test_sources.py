@@ -8,7 +8,7 @@ from bladerub.study.growth import growth_digest
 from bladerub.study.plan import storage_digest
 
 SOLVER, STORAGE, GROWTH = solver_digest, storage_digest, growth_digest
-GPU, CHART = solver.gpu_digest.__wrapped__, column.chart_digest.__wrapped__
+GPU, CHART = solver.gpu_digest.__wrapped__, column.chart_digest
 EDITS = [  # the file, the digest that it belongs to, one that it does not
     ("contact/run.py", SOLVER, STORAGE),
     ("contact/kernel/run.py", SOLVER, STORAGE),

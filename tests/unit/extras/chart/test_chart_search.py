@@ -20,26 +20,36 @@ CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
 
 
 @pytest.fixture
-def simulated(monkeypatch, make_result):
-    """Stand in for the solver: highest at 0.28, growing at 0.16 and 0.28; lists speeds and revolutions."""
-    asked = []
-
-    def simulate(blade, spec):
-        asked.append((spec.f_omega, spec.revolutions))
-        growth = 0.05 if spec.f_omega in (0.16, 0.28) else 0.0
-        order = 6.0 if spec.f_omega < 0.25 else 4.0
-        height = 1e-3 * (1 - 2 * abs(spec.f_omega - 0.28))
-        return make_result(revolutions=spec.revolutions, order=order, amplitude=height, growth=growth)
-
-    monkeypatch.setattr(search, "simulate", simulate)
-    return asked
+def simulated():
+    """Speeds and revolutions of the runs that were simulated."""
+    return []
 
 
 @pytest.fixture
-def on(few_speeds, blade):
-    return lambda speeds, case=CASE, *earlier: search.compute(
-        few_speeds, case, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2), *earlier
+def solve(make_result, simulated):
+    """Stand in for the solver, in another order: highest at 0.28, growing at 0.16 and 0.28."""
+
+    def solved(specs):
+        simulated.extend((spec.f_omega, spec.revolutions) for spec in specs)
+        for number, spec in reversed(list(enumerate(specs))):
+            growth = 0.05 if spec.f_omega in (0.16, 0.28) else 0.0
+            order = 6.0 if spec.f_omega < 0.25 else 4.0
+            height = 1e-3 * (1 - 2 * abs(spec.f_omega - 0.28))
+            yield number, make_result(spec.revolutions, order=order, amplitude=height, growth=growth), 0.0
+
+    return solved
+
+
+@pytest.fixture
+def start(few_speeds, blade):
+    return lambda speeds, case=CASE, earlier=None: search.search(
+        few_speeds, case, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2), earlier
     )
+
+
+@pytest.fixture
+def on(start, solve):
+    return lambda *about: next(search.compute({CASE: start(*about)}, solve))[1]
 
 
 def assert_same(point, other):
@@ -62,18 +72,16 @@ def test_the_search_encloses_the_peaks_and_judges_even_speeds_alone(few_speeds, 
     assert np.isnan(judged[0.28])
 
 
-def test_searches_together_are_those_alone(few_speeds, blade, on, simulated):
+def test_searches_together_are_those_alone(few_speeds, start, on, solve):
     speeds = chart_speeds(few_speeds)
-    C1 = np.sqrt(1 + 3 * speeds.f_omega**2)
     cases = [CASE, replace(CASE, E=5.0)]
     asked = []
 
-    def solve(specs):
+    def counted(specs):
         asked.append(len(specs))
-        return ((i, search.simulate(blade, specs[i])) for i in reversed(range(len(specs))))  # in any order
+        return solve(specs)
 
-    searches = {case: search.search(few_speeds, case, blade, speeds, C1) for case in cases}
-    together = dict(search.compute_together(searches, solve))
+    together = dict(search.compute({case: start(speeds, case) for case in cases}, counted))
     for case in cases:
         assert_same(together[case], on(speeds, case))
     assert asked[0] == 2 * speeds.coarse.sum()  # both at once
@@ -97,11 +105,11 @@ def test_a_search_from_more_speeds_computes_what_an_earlier_one_did_not(few_spee
     np.testing.assert_array_equal(fewer.measures["divergent"], earlier.measures["divergent"])
 
 
-def test_each_measure_is_that_of_its_run(few_speeds, make_result, blade, on, monkeypatch):
+def test_each_measure_is_that_of_its_run(few_speeds, make_result, blade, start):
     result = make_result(order=4.0, amplitude=1e-3)
     result = replace(result, revolution_peak=result.revolution_peak + np.linspace(0, 1e-3, 20))
-    monkeypatch.setattr(search, "simulate", lambda *_: result)
-    point = on(chart_speeds(few_speeds))
+    searches = {CASE: start(chart_speeds(few_speeds))}
+    ((_, point),) = search.compute(searches, lambda specs: [(i, result, 0.0) for i in range(len(specs))])
     f_omega, of = point.f_omega[point.known], {k: v[point.known] for k, v in point.measures.items()}
     assert of["peak"] == pytest.approx(2e-3, rel=1e-4)
     assert of["lobes"] == pytest.approx(4)
@@ -189,9 +197,10 @@ def build(few_speeds, blade, make_point, monkeypatch, tmp_path):
     """Compute the column of given K, write its manifest and return the K that the search was asked for."""
     computed = []
 
-    def compute(config, case, *_):
-        computed.append(case.K)
-        return make_point(case.E, case.K)
+    def compute(searches, solve):
+        for case in searches:
+            computed.append(case.K)
+            yield case, make_point(case.E, case.K)
 
     monkeypatch.setattr(column, "compute", compute)
 
