@@ -29,9 +29,11 @@ def variations_plan(kind):
 identification_plan = partial(variations_plan, "identification")
 
 
-def identification_sampling(wildcards):
-    """All but results that determines which sets are drawn: a changed one is a reason to run."""
-    return identification_plan().sampling(STUDY)
+# All but results that determines which sets are drawn: a changed one is a reason to run
+SAMPLING = {
+    "plan": PLANS["identification"],
+    "sampling": lambda wildcards: identification_plan().sampling(STUDY),
+}
 
 
 @cache
@@ -193,8 +195,7 @@ rule identification_wave:
         mem_mb=memory_mb,
         runtime=minutes(5),
     params:
-        plan=PLANS["identification"],
-        sampling=identification_sampling,
+        **SAMPLING,
         drawn=lambda wildcards: identification_plan().size(int(wildcards.wave)),
     script:
         "scripts/identification_wave.py"
@@ -215,8 +216,7 @@ rule identification_left:
         mem_mb=memory_mb,
         runtime=minutes(120),
     params:
-        plan=PLANS["identification"],
-        sampling=identification_sampling,
+        **SAMPLING,
         remaining=lambda wildcards: identification_plan().remaining,
     script:
         "scripts/identification_left.py"
@@ -236,8 +236,7 @@ rule identification_candidates:
         mem_mb=memory_mb,
         runtime=minutes(5),
     params:
-        plan=PLANS["identification"],
-        sampling=identification_sampling,
+        **SAMPLING,
         wanted=lambda wildcards: identification_plan().candidates.pairs,
         shift=lambda wildcards: identification_plan().candidates.shift,
     script:

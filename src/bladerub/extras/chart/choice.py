@@ -54,7 +54,10 @@ def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
     rows = []
     for _, coatings in judged.groupby("theta"):
         best = coatings.sort_values(["broken", "peak", "worn_volume"]).iloc[0]
-        ends = {name: _next_to(coatings[name], best[name]) for name in ("E", "K")}
+        ends = {
+            name: {"below": moduli[moduli < best[name]].max(), "above": moduli[moduli > best[name]].min()}
+            for name, moduli in coatings[["E", "K"]].items()
+        }
         near = [coatings[name].isin([best[name], *ends[name].values()]) for name in ends]
         around = coatings[near[0] & near[1]].drop(best.name)
         rows.append(
@@ -70,8 +73,3 @@ def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
-
-
-def _next_to(moduli: pd.Series, modulus: float) -> dict[str, float]:
-    """Find the next lower and the next higher of `moduli`, NaN if there is none."""
-    return {"below": moduli[moduli < modulus].max(), "above": moduli[moduli > modulus].min()}

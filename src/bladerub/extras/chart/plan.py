@@ -61,9 +61,7 @@ def plan(config: Config) -> Plan:
     if expected_minutes(config, smallest) > minutes:
         needed = math.ceil(10 * expected_minutes(config, smallest)) / 10
         raise BadInput(f"chart.minutes = {minutes:g}: must be at least {needed:g} for the ends of E and K")
-    while grown := _grown(chosen, orders):
-        if expected_minutes(config, grown) > minutes:
-            break
+    while (grown := _grown(chosen, orders)) and expected_minutes(config, grown) <= minutes:
         chosen = grown
     return chosen
 

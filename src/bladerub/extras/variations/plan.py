@@ -74,26 +74,23 @@ class Plan:
 
     def jobs(self) -> dict[str, Job]:
         """Return every job by its name, which is that of the folder of its tables as well."""
+        parts = tuple(self.parts.values())
         if self.candidates:
-            return self._waves() | {
+            return {
+                f"wave{wave}/{name}": Job(sets, parts)
+                for wave in range(1, len(self.waves) + 1)
+                for name, sets in _batches(self.first(wave), self.size(wave), _SETS).items()
+            } | {
                 f"candidates/{candidate}_{neighbour}": Job((number,), (self.finer,))
                 for number, (candidate, neighbour) in enumerate(self.candidates.pairs)
             }
         if self.factors:
             return {
                 f"{part.name}/{name}": Job(sets, (part,))
-                for part in self.parts.values()
+                for part in parts
                 for name, sets in {"reference": (REFERENCE,), **_batches(0, part.samples, _SAMPLES)}.items()
             }
-        return {name: Job((name,), (part,)) for name, part in self.parts.items()}
-
-    def _waves(self) -> dict[str, Job]:
-        parts = tuple(self.parts.values())
-        return {
-            f"wave{wave}/{name}": Job(sets, parts)
-            for wave in range(1, len(self.waves) + 1)
-            for name, sets in _batches(self.first(wave), self.size(wave), _SETS).items()
-        }
+        return {part.name: Job((part.name,), (part,)) for part in parts}
 
     def listed(self, study: Config) -> np.ndarray:
         """Return the positions of the study's own values, then of the listed sets, (1 + n_sets, d).
