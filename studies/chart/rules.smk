@@ -2,9 +2,8 @@
 import sys
 from functools import cache, partial
 
-from bladerub.extras.chart.grid import chart_orders, check
 from bladerub.extras.chart.plan import columns, in_words
-from bladerub.extras.chart.point import PointRow
+from bladerub.extras.chart.point import PointRow, chart_orders, check
 from bladerub.study.grid import modulus_unit
 
 CHART_ORDERS = chart_orders(STUDY)

@@ -23,7 +23,6 @@ EDITS = [  # the file, the digest that it belongs to, one that it does not
     ("study/peaks.py", CHART, SOLVER),
     ("study/wear.py", CHART, SOLVER),
     ("blade/frequencies.py", CHART, SOLVER),
-    ("extras/chart/grid.py", CHART, SOLVER),
     ("extras/chart/search.py", CHART, SOLVER),
     ("extras/chart/point.py", CHART, SOLVER),
 ]

@@ -13,9 +13,8 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.laws import law_digest
 from bladerub.contact.sources import solver_digest
 from bladerub.extras.chart import point as points
-from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
 from bladerub.extras.chart.plan import chart_speeds
-from bladerub.extras.chart.point import PointRow
+from bladerub.extras.chart.point import ChartSpeeds, PointRow, chart_orders
 from bladerub.extras.chart.search import compute, search
 from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
@@ -29,8 +28,7 @@ from bladerub.study.solver import each_done, solver_of
 def chart_digest() -> str:
     """Digest the source of what chooses the speeds of a point of the chart and what it keeps of each run."""
     measuring = (f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear"))
-    searching = (f"extras/chart/{name}.py" for name in ("grid", "search", "point"))
-    return digest_of("blade/frequencies.py", *measuring, *searching)
+    return digest_of("blade/frequencies.py", *measuring, "extras/chart/point.py", "extras/chart/search.py")
 
 
 def determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> str:

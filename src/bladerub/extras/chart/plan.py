@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.extras.chart.grid import ChartSpeeds, nearest_speeds
+from bladerub.extras.chart.point import ChartSpeeds, nearest_speeds
 from bladerub.extras.job_times import GROWING, SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config

@@ -1,4 +1,4 @@
-"""One point of the chart, a coating: what is kept of the runs of one coating, and its file."""
+"""One point of the chart, a coating: its engine orders and speeds, what is kept of its runs, and its file."""
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -7,12 +7,13 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.io import checksum, hdf5
-from bladerub.io.errors import DamagedFile, is_refused
+from bladerub.io.errors import BadInput, DamagedFile, is_refused
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
-from bladerub.study.grid import CoatingCase
+from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.manifest import ListedFile
+from bladerub.study.orders import peak_orders
 
 MEASURES = {
     "peak": ("m", "greatest absolute radial displacement of node 1"),
@@ -39,7 +40,6 @@ _DATASETS = {
     "uniform": ("1", "1 at the speeds of which shares are"),
 }
 
-
 KEY = "cell_key"
 """Attribute of the file of a point: its key in the store (`bladerub.study.cache`)."""
 
@@ -48,6 +48,52 @@ RUNS_KEY = "runs_key"
 
 POINTS = "cells"
 """Folder of the points, next to that of the manifests."""
+
+
+def chart_orders(config: Config) -> list[int]:
+    """Return the engine orders of the chart, those of its casing: 4 and 6 in the paper's Figs. 11 to 14."""
+    return peak_orders(config, config.chart.casing)
+
+
+class ChartSpeeds(NamedTuple):
+    """Speeds at which a point may be run, and those at which every point is."""
+
+    f_omega: np.ndarray  # (n,), all speeds of the study, normalised: a run of the chart is one of the study's
+    uniform: np.ndarray  # (n,) of bool, at even steps, to which the shares of the chart refer
+    coarse: np.ndarray  # (n,) of bool, these and denser ones at low speed: where the search for maxima begins
+
+
+def nearest_speeds(config: Config, multiple: int = 1) -> ChartSpeeds:
+    """Choose the speeds of the study that are nearest to the even ones of ``chart.speeds``.
+
+    The even ones are `multiple` times as far apart as the config says.
+    """
+    f_omega, settings = np.array(speeds(config)), config.chart.speeds
+    start, stop, dense_stop = settings.start, f_omega[-1], min(settings.dense_stop, f_omega[-1])
+    uniform = _nearest(f_omega, np.arange(start, stop + 1e-9, multiple * settings.step))
+    dense = _nearest(f_omega, np.arange(start, dense_stop + 1e-9, multiple * settings.dense_step))
+    return ChartSpeeds(f_omega, uniform, uniform | dense)
+
+
+def _nearest(f_omega: np.ndarray, even: np.ndarray) -> np.ndarray:
+    mask = np.zeros(f_omega.size, dtype=bool)
+    mask[np.abs(f_omega - even[:, None]).argmin(axis=1)] = True
+    return mask
+
+
+def check(config: Config) -> None:
+    """Raise `BadInput`, naming the key, if the chart has no speeds, or an engine order no crossing with C1.
+
+    Studies without a chart need neither.
+    """
+    highest, lowest = config.speeds.stop, min(chart_orders(config))
+    if (start := config.chart.speeds.start) >= highest:
+        raise BadInput(f"chart.speeds.start = {start:g}: must be below speeds.stop = {highest:g}")
+    if lowest * highest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
+        raise BadInput(
+            f"speeds.stop = {highest:g}: must be at least {1 / lowest:g} for the chart, or engine order "
+            f"{lowest} does not cross the first frequency"
+        )
 
 
 class PointRow(NamedTuple):

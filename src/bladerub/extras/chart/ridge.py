@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.chart.grid import chart_orders
-from bladerub.extras.chart.point import ChartPoint
+from bladerub.extras.chart.point import ChartPoint, chart_orders
 from bladerub.extras.chart.stiffening import contact_stiffness
 from bladerub.settings.study import Config
 from bladerub.study.peaks import amplitude_in_window, maximum

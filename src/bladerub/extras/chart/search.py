@@ -23,8 +23,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.strips import element_area
-from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
-from bladerub.extras.chart.point import MEASURES, ChartPoint
+from bladerub.extras.chart.point import MEASURES, ChartPoint, ChartSpeeds, chart_orders
 from bladerub.settings.analysis import Analysis
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec

@@ -17,8 +17,7 @@ from scipy.stats import spearmanr
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
-from bladerub.extras.chart.grid import chart_orders
-from bladerub.extras.chart.point import ChartPoint
+from bladerub.extras.chart.point import ChartPoint, chart_orders
 from bladerub.extras.chart.table import COATING
 from bladerub.settings.study import Config
 from bladerub.study.peaks import crossing_speed, row

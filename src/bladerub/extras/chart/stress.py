@@ -10,7 +10,7 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.extras.chart.grid import chart_orders
+from bladerub.extras.chart.point import chart_orders
 from bladerub.extras.chart.table import COATING
 from bladerub.extras.stress.run import BladeStress
 from bladerub.io import tables

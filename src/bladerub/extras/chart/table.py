@@ -7,8 +7,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.extras.chart import point as files
-from bladerub.extras.chart.grid import chart_orders
-from bladerub.extras.chart.point import ChartPoint, PointRow
+from bladerub.extras.chart.point import ChartPoint, PointRow, chart_orders
 from bladerub.io.errors import DamagedFile
 from bladerub.settings.study import Config
 from bladerub.study.manifest import listed_files
