@@ -113,27 +113,20 @@ def _speeds(stiffening, explanation, peaks):
     inclined = rows(stiffening, theta=0.15).set_index("order")
     other = rows(explanation, order=6, theta=0)
     other = other[other["f_peak"] < other["f_crossing"]]
+    moduli = ("E_T", "K", "E")
     return {
         "stiffening": table(
             stiffening,
             headings("theta", "order", "coatings")
-            | {
-                f"rank_correlation_{E}": (f"rank correlation with {E}", decimals(2))
-                for E in ("E_T", "K", "E")
-            }
-            | {
-                f"scatter_{E}": (f"distance from the best rising curve of {E}", decimals(4))
-                for E in ("E_T", "K", "E")
-            },
+            | {f"rank_correlation_{E}": (f"rank correlation with {E}", decimals(2)) for E in moduli}
+            | {f"scatter_{E}": (f"distance from the best rising curve of {E}", decimals(4)) for E in moduli},
         ),
         "f4_rising": rising,
         "f4_falling": falling,
         "f4_hard": hard,
         "f4_rigid": fixed(row(peaks, law="coulomb", order=4)["f_peak"], 3),
-        "modulus_ratios": " and ".join(f"{inclined.loc[order, 'modulus_ratio']:.1f}" for order in (4, 6)),
-        "modulus_ratios_by_share": " and ".join(
-            f"{inclined.loc[order, 'modulus_ratio_by_share']:.2f}" for order in (4, 6)
-        ),
+        "modulus_ratios": " and ".join(map(decimals(1), inclined["modulus_ratio"])),
+        "modulus_ratios_by_share": " and ".join(map(decimals(2), inclined["modulus_ratio_by_share"])),
         "share": fixed(1 / inclined.loc[4, "modulus_ratio_by_share"], 2),
         "other_K": f"{other['K'].min():g}",
         "other_E_T": fixed(other["E_T"].min(), 1),

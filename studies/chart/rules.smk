@@ -6,8 +6,8 @@ from bladerub.extras.chart.plan import columns, in_words
 from bladerub.extras.chart.point import PointRow, chart_orders, check
 from bladerub.study.grid import modulus_unit
 
-CHART_ORDERS = chart_orders(STUDY)
-PEAK_CAPTIONS = {f"{name}{order}": f"chart_{name}k" for order in CHART_ORDERS for name in "Yf"}
+CHART_PEAKS = config["analysis"]["peaks"] | {"orders": chart_orders(STUDY)}
+PEAK_CAPTIONS = {f"{name}{order}": f"chart_{name}k" for order in CHART_PEAKS["orders"] for name in "Yf"}
 CHARTED = [*PEAK_CAPTIONS, "peak", "worn_volume", "divergent_share"]
 CHART_FIGURES = ["safe", "pareto", "explanation", "stiffening"]
 CHART_TABLES = ["pareto", "choice", "ridge", "ridge_summary", "explanation", "stiffening"]
@@ -61,24 +61,10 @@ rule chart_column:
         "scripts/chart_column.py"
 
 
-rule chart_table:
-    input:
-        manifests=chart_manifests,
-        analysing=files_behind("extras.chart.table", "study.peaks"),
-    output:
-        **described(table=f"{TABLES}/chart.csv"),
-    log:
-        f"{RESULTS}/logs/chart_table.log",
-    params:
-        peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
-    script:
-        "scripts/chart_table.py"
-
-
 rule chart_stress:
     # only where the config has a fatigue limit
     input:
-        table=rules.chart_table.output.table,
+        manifests=chart_manifests,
         blade=rules.blade.output.reduced_model,
         mesh=rules.blade.output.mesh,
         kernel=rules.compile_kernel.output[0],
@@ -92,6 +78,8 @@ rule chart_stress:
     resources:
         mem_mb=memory_mb,
         runtime=minutes(60),
+    params:
+        peaks=CHART_PEAKS,
     script:
         "scripts/chart_stress.py"
 
@@ -99,19 +87,11 @@ rule chart_stress:
 rule chart:
     # tables and figures in one job, because to start it takes longer than to draw one
     input:
-        tables=[
-            rules.chart_table.output.table,
-            *(rules.chart_stress.output[:1] if "fatigue" in config["chart"]["limits"] else []),
-        ],
         manifests=chart_manifests,
+        stress=rules.chart_stress.output[:1] if "fatigue" in config["chart"]["limits"] else [],
         blade=rules.blade.output.reduced_model,
-        analysing=files_behind(
-            *(f"extras.chart.{name}" for name in ("choice", "ridge", "stiffening", "stress", "table")),
-        ),
-        drawing=files_behind(
-            *(f"extras.plots.chart_{name}" for name in ("moduli", "pareto", "peaks")),
-            "plots.titles",
-        ),
+        analysing=files_behind("extras.chart.choice", "extras.chart.ridge", "extras.chart.stress"),
+        drawing=files_behind("extras.plots.chart_moduli", "extras.plots.chart_pareto", "plots.titles"),
     output:
         **{
             f"chart_{name}_png": shown(
@@ -123,7 +103,10 @@ rule chart:
             for name in [*CHARTED, *CHART_FIGURES]
         },
         **{f"chart_{name}_pdf": f"{PLOTS}/chart_{name}.pdf" for name in [*CHARTED, *CHART_FIGURES]},
-        **described(**{name: f"{TABLES}/chart_{name}.csv" for name in CHART_TABLES}),
+        **described(
+            table=f"{TABLES}/chart.csv",
+            **{name: f"{TABLES}/chart_{name}.csv" for name in CHART_TABLES},
+        ),
     log:
         f"{RESULTS}/logs/chart.log",
     params:
@@ -131,7 +114,7 @@ rule chart:
         quantities=CHARTED,
         modulus_unit=modulus_unit(STUDY),
         limits=config["chart"]["limits"],
-        peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
+        peaks=CHART_PEAKS,
     script:
         "scripts/chart.py"
 
@@ -147,11 +130,7 @@ rule chart_placement:
             and case.casing == config["chart"]["casing"]
             and case.theta in config["chart"]["theta"]
         ],
-        analysing=files_behind(
-            "extras.chart.search",
-            "extras.chart.check",
-            "study.peaks",
-        ),
+        analysing=files_behind("extras.chart.check"),
     output:
         **described(
             table=f"{TABLES}/chart_placement.csv",
@@ -160,7 +139,7 @@ rule chart_placement:
     log:
         f"{RESULTS}/logs/chart_placement.log",
     params:
-        peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
+        peaks=CHART_PEAKS,
         speeds=config["chart"]["speeds"],
     script:
         "scripts/chart_placement.py"
@@ -169,7 +148,7 @@ rule chart_placement:
 rule chart_agreement:
     # needs both the chart and the study: `snakemake results/tables/chart_agreement.csv`
     input:
-        chart=rules.chart_table.output[0],
+        chart=rules.chart.output.table,
         placement=rules.chart_placement.output[0],
         analysing=files_behind("extras.chart.check"),
     output:

@@ -5,10 +5,9 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras.chart import ridge, stiffening
+from bladerub.extras.chart import ridge, stiffening, table
 from bladerub.extras.chart.choice import broken_limits, pareto, recommended
 from bladerub.extras.chart.stress import read_chart
-from bladerub.extras.chart.table import read_points
 from bladerub.extras.plots.chart_moduli import chart_map, chart_safe
 from bladerub.extras.plots.chart_pareto import chart_pareto
 from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
@@ -16,8 +15,10 @@ from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
 config, unit = typed(snakemake.config), snakemake.params.modulus_unit
-chart, limits = read_chart(*snakemake.input.tables), config.chart.limits
-points = list(read_points(snakemake.input.manifests))
+points, limits = list(table.read_points(snakemake.input.manifests)), config.chart.limits
+outputs.save(snakemake, table=table.table(config, points))
+# as the table has it, with the stress where that is limited
+chart = read_chart(snakemake.output.table, *snakemake.input.stress)
 ridges, peaks = ridge.table(config, points), stiffening.explanation(config, points)
 front, speeds = pareto(chart, limits), stiffening.table(peaks, read_reduced_blade(snakemake.input.blade))
 outputs.save(

@@ -5,10 +5,10 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras.chart.stress import table
-from bladerub.io import tables
+from bladerub.extras.chart import stress, table
 from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 
-blade, chart = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.table)
-outputs.save(snakemake, table=table(snakemake.input.mesh, blade, typed(snakemake.config), chart))
+config, blade = typed(snakemake.config), read_reduced_blade(snakemake.input.blade)
+chart = table.table(config, table.read_points(snakemake.input.manifests))
+outputs.save(snakemake, table=stress.table(snakemake.input.mesh, blade, config, chart))
