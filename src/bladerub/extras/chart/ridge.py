@@ -6,9 +6,8 @@
    chart would show if it had no finer speeds.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -40,12 +39,11 @@ def table(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
 
     A row with `COLUMNS`, m, for each point on a ridge; NaN for the neighbours if none of them has a peak.
     """
-    points, rows = list(points), []
+    points, ridges = list(points), []
     for multiple in MULTIPLES:
-        for surface, peaks in _peaks(config, points, multiple).groupby(_SURFACE):
-            about = dict(zip(_SURFACE, surface, strict=True))
-            rows += [about | row for row in _ridge(peaks, config.speeds.step * multiple)]
-    return pd.DataFrame(rows, columns=COLUMNS)
+        peaks = _peaks(config, points, multiple).assign(speed_step=round(config.speeds.step * multiple, 9))
+        ridges += [_ridge(of_surface) for _, of_surface in peaks.groupby(_SURFACE)]
+    return pd.concat(ridges, ignore_index=True)[COLUMNS]
 
 
 def _peaks(config: Config, points: list[ChartPoint], multiple: int) -> pd.DataFrame:
@@ -63,30 +61,21 @@ def _peaks(config: Config, points: list[ChartPoint], multiple: int) -> pd.DataFr
     return pd.DataFrame(rows, columns=[*_SURFACE, "E", "K", "f_peak", "amplitude"])
 
 
-def _ridge(peaks: pd.DataFrame, speed_step: float) -> Iterator[dict[str, Any]]:
+def _ridge(peaks: pd.DataFrame) -> pd.DataFrame:
+    """Find both ridges of one surface, each in the order of its modulus; of equals the lowest modulus."""
     height = peaks.pivot(index="E", columns="K", values="amplitude")
-    speed = peaks.pivot(index="E", columns="K", values="f_peak").to_numpy()
-    E, K, Y = height.index.to_numpy(), height.columns.to_numpy(), height.to_numpy()
-    highest = np.nan_to_num(Y, nan=-np.inf)
-    places = [("E", i, int(j)) for i, j in enumerate(highest.argmax(axis=1))]
-    places += [("K", int(i), j) for j, i in enumerate(highest.argmax(axis=0))]
-    for along, i, j in places:
-        if np.isnan(Y[i, j]):
-            continue
-        around = Y[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2].copy()
-        around[min(i, 1), min(j, 1)] = np.nan
-        neighbours = pd.Series(around.ravel())
-        yield {
-            "along": along,
-            "speed_step": round(speed_step, 9),
-            "E": E[i],
-            "K": K[j],
-            "E_T": contact_stiffness(E[i], K[j]),
-            "f_peak": speed[i, j],
-            "amplitude": Y[i, j],
-            "lowest_neighbour": neighbours.min(),
-            "highest_neighbour": neighbours.max(),
-        }
+    bordered = np.pad(height.to_numpy(), 1, constant_values=np.nan)
+    peaks = peaks.dropna(subset="amplitude").sort_values(["E", "K"])
+    ridge = pd.concat(
+        peaks.loc[peaks.groupby(along).amplitude.idxmax()].assign(along=along) for along in ("E", "K")
+    )
+    places = zip(height.index.get_indexer(ridge.E), height.columns.get_indexer(ridge.K), strict=True)
+    around = pd.DataFrame([np.delete(bordered[i : i + 3, j : j + 3], 4) for i, j in places])
+    return ridge.assign(
+        E_T=contact_stiffness(ridge.E, ridge.K),
+        lowest_neighbour=around.min(axis=1).to_numpy(),
+        highest_neighbour=around.max(axis=1).to_numpy(),
+    )
 
 
 def summary(ridges: pd.DataFrame) -> pd.DataFrame:
