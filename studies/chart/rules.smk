@@ -109,6 +109,9 @@ rule chart:
         ),
     log:
         f"{RESULTS}/logs/chart.log",
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(5),
     params:
         dpi=DPI,
         quantities=CHARTED,
