@@ -52,6 +52,7 @@ def write(
     dimension.
     """
     data = {name: np.asarray(variable.data) for name, variable in variables.items()}
+    constant = {key: value for key, value in attributes.items() if key in repeated} | dict(origin)
     blank, start = _blank(
         tuple(
             (name, variable.dims, data[name].shape, data[name].dtype.str, variable.units, variable.long_name)
@@ -59,8 +60,7 @@ def write(
         ),
         tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items()),
         tuple((name, values.tobytes()) for name, values in data.items() if name in repeated),
-        tuple((key, value) for key, value in attributes.items() if key in repeated),
-        tuple(origin.items()),
+        tuple(constant.items()),
     )
     image = bytearray(blank)
     for name, place in start.items():
@@ -87,20 +87,19 @@ def write(
 
 
 @lru_cache(maxsize=8)
-def _blank(
-    layout: tuple, attributes: tuple, values: tuple, repeated_attributes: tuple, origin: tuple
-) -> tuple[bytes, dict[str, int]]:
+def _blank(layout: tuple, attributes: tuple, values: tuple, constant: tuple) -> tuple[bytes, dict[str, int]]:
     """Make a file without values but those given: the rest takes several times as long as filling it.
 
-    `layout` has name, dimensions, shape, type, unit and meaning of each dataset. Returns the file, and where
-    in it the values of a dataset go that is neither compressed nor text.
+    `layout` has name, dimensions, shape, type, unit and meaning of each dataset, `constant` are attributes
+    with their values. Returns the file, and where in it the values of a dataset go that is neither compressed
+    nor text.
     """
     contents = dict(values)
     with h5py.File(io.BytesIO(), "w") as file:
         for key, kind in attributes:
             file.attrs[key] = "" if "U" in kind else np.zeros((), kind)
         file.attrs[CHECKSUM] = np.bytes_(checksum.BLANK)
-        for key, value in (*repeated_attributes, *origin):
+        for key, value in constant:
             file.attrs[key] = value
         lengths: dict[str, int] = {}
         coordinates_first = sorted(layout, key=lambda entry: entry[1] != (entry[0],))
@@ -156,13 +155,13 @@ def read(
     """
     with opened(path) as file:
         checksum.is_sealed(path)
-        return _content(file, only, attribute_names)
+        return _datasets(file, only), _attributes(file, attribute_names)
 
 
 def read_any(path: str | Path) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Read as `read` a file that people may have edited, or other programs written: as it is now."""
     with opened(path) as file:
-        return _content(file)
+        return _datasets(file), _attributes(file)
 
 
 def read_attributes(path: str | Path) -> dict[str, Any]:
@@ -187,19 +186,13 @@ def opened(path: str | Path) -> Iterator[h5py.File]:
         raise DamagedFile(f"{path}: not a readable HDF5 file ({error})") from error
 
 
-def _content(
-    file: h5py.File, only: Set[str] | None = None, attribute_names: Set[str] | None = None
-) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    names = file.keys() if only is None else only & file.keys()
-    entries = ((name, file[name]) for name in names)
-    data = {name: _values(entry) for name, entry in entries if isinstance(entry, h5py.Dataset)}
-    return data, _attributes(file, attribute_names)
-
-
-def _values(dataset: h5py.Dataset) -> np.ndarray:
-    if h5py.check_string_dtype(dataset.dtype):
-        return np.array(dataset.asstr()[...], dtype=str)
-    return dataset[...]
+def _datasets(file: h5py.File, only: Set[str] | None = None) -> dict[str, np.ndarray]:
+    data = {}
+    for name in file.keys() if only is None else only & file.keys():
+        if isinstance(entry := file[name], h5py.Dataset):
+            is_text = h5py.check_string_dtype(entry.dtype)
+            data[name] = np.array(entry.asstr()[...], dtype=str) if is_text else entry[...]
+    return data
 
 
 def _attributes(file: h5py.File, only: Set[str] | None = None) -> dict[str, Any]:

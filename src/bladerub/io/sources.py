@@ -44,13 +44,9 @@ def _paths_behind(modules: Iterable[str], further: Set[str] = frozenset()) -> se
     return paths
 
 
-def _path_of(module: str) -> Path:
-    return _path_below(PACKAGE, module)
-
-
 @cache
-def _path_below(folder: Path, module: str) -> Path:
-    path = folder.joinpath(*module.split("."))
+def _path_of(module: str) -> Path:
+    path = PACKAGE.joinpath(*module.split("."))
     package = path / "__init__.py"
     return package if package.is_file() else path.with_suffix(".py")
 
