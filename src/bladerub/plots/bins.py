@@ -23,11 +23,5 @@ def with_gaps(f_omega: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
     middle = edges(f_omega)
     reach = np.median(np.diff(f_omega))
     lower, upper = np.maximum(middle[:-1], f_omega - reach), np.minimum(middle[1:], f_omega + reach)
-    speed_edges, rows = [lower[0]], []
-    for low, high, row in zip(lower, upper, values, strict=True):
-        if low > speed_edges[-1]:
-            speed_edges.append(low)
-            rows.append(np.full(row.shape, np.nan))
-        speed_edges.append(high)
-        rows.append(row)
-    return np.array(speed_edges), np.array(rows)
+    gaps = np.flatnonzero(lower[1:] > upper[:-1]) + 1
+    return np.union1d(lower, upper), np.insert(values, gaps, np.nan, axis=0)

@@ -1,6 +1,5 @@
 """The blade's mesh, or its nodes alone, with its clamped root and the interface nodes."""
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -14,39 +13,12 @@ from bladerub.blade.surface import boundary_faces, normals
 from bladerub.io import hdf5
 from bladerub.plots.style import DARK, PAGE, RED, new_figure, on_axes
 
-
-@dataclass(frozen=True)
-class View:
-    """Parallel projection with z upwards.
-
-    The eye is at `elevation` over the x-y plane and at `azimuth` in it from x towards y, degrees.
-    """
-
-    elevation: float
-    azimuth: float
-
-    @property
-    def towards_eye(self) -> np.ndarray:
-        """Unit vector (3,) from the object to the eye."""
-        elevation, azimuth = np.radians([self.elevation, self.azimuth])
-        level = np.cos(elevation)
-        return np.array([level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)])
-
-    def project(self, points: np.ndarray) -> np.ndarray:
-        """Horizontal and vertical position (..., 2) of points (..., 3) in the picture, in the same unit."""
-        horizontal = np.cross([0, 0, 1], self.towards_eye)
-        horizontal /= np.linalg.norm(horizontal)
-        return points @ np.stack([horizontal, np.cross(self.towards_eye, horizontal)], axis=1)
-
-    def front_faces(self, polygons: np.ndarray) -> np.ndarray:
-        """List the faces among (n, 8 or 6, 3) that are turned to the eye, the farthest first."""
-        facing = np.flatnonzero(normals(polygons) @ self.towards_eye > 1e-6)  # not those seen edge-on
-        return facing[np.argsort((polygons[facing] @ self.towards_eye).mean(axis=1))]
-
-
 _METAL = np.array(colors.to_rgb("#c3ccd6"))
 _LIGHT = np.array([-0.35, 0.85, 0.40])
-_VIEW = View(elevation=24, azimuth=102)  # the pressure side, with the tip face and the twist in sight
+_ELEVATION, _AZIMUTH = np.radians([24, 102])  # over the x-y plane, and in it from x towards y
+_LEVEL = np.cos(_ELEVATION)
+_EYE = np.array([_LEVEL * np.cos(_AZIMUTH), _LEVEL * np.sin(_AZIMUTH), np.sin(_ELEVATION)])
+"""Where the pressure side is seen from, with the tip face and the twist in sight."""
 _EDGES = {"edgecolors": DARK, "linewidths": 0.35}
 _INTERFACE = {"marker": "o", "ms": 6, "color": RED, "ls": "none", "mec": "white", "mew": 0.5}
 _ROOT = {"marker": CARETUP, "ms": 5, "color": DARK, "ls": "none", "mew": 0.3}
@@ -54,6 +26,22 @@ _NODE = {"marker": ".", "linestyle": "none", "markeredgewidth": 0}
 _KINDS = {20: "hexahedra", 10: "tetrahedra"}
 _AXES = ("x, axial ", "right", "center"), ("y, rotation", "center", "top"), ("z, radial", "center", "bottom")
 _AXIS = 35  # length of the drawn axes, mm
+
+
+def project(points: np.ndarray, eye: np.ndarray = _EYE) -> np.ndarray:
+    """Horizontal and vertical position (..., 2) of points (..., 3) in the picture, z upwards.
+
+    They are seen in parallel from the direction `eye` (3,), a unit vector.
+    """
+    horizontal = np.cross([0, 0, 1], eye)
+    horizontal /= np.linalg.norm(horizontal)
+    return points @ np.stack([horizontal, np.cross(eye, horizontal)], axis=1)
+
+
+def front_faces(polygons: np.ndarray, eye: np.ndarray = _EYE) -> np.ndarray:
+    """List the faces among (n, 8 or 6, 3) that are turned to the `eye`, the farthest first."""
+    facing = np.flatnonzero(normals(polygons) @ eye > 1e-6)  # not those seen edge-on
+    return facing[np.argsort((polygons[facing] @ eye).mean(axis=1))]
 
 
 def read_mesh(path: str | Path) -> tuple[np.ndarray, ...]:
@@ -100,16 +88,15 @@ def _draw_whole(
     axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.ndarray, root: np.ndarray
 ) -> None:
     polygons = points[faces]
-    visible = _VIEW.front_faces(polygons)
+    visible = front_faces(polygons)
     shade = 0.5 + 0.5 * np.clip(normals(polygons[visible]) @ _LIGHT, 0, 1)
     if len(root):
-        axes.plot(*_VIEW.project(points[root]).T, label="clamped root nodes", zorder=0.5, **_ROOT)
+        axes.plot(*project(points[root]).T, label="clamped root nodes", zorder=0.5, **_ROOT)
     if not len(faces):
-        axes.plot(*_VIEW.project(points).T, color=_METAL * 0.75, markersize=2.5, label="_nodes", **_NODE)
-    axes.add_collection(
-        PolyCollection(_VIEW.project(polygons[visible]), facecolors=shade[:, None] * _METAL, **_EDGES)
-    )
-    axes.plot(*_VIEW.project(points[interface]).T, label="interface nodes", **_INTERFACE)
+        axes.plot(*project(points).T, color=_METAL * 0.75, markersize=2.5, label="_nodes", **_NODE)
+    drawn, colours = project(polygons[visible]), shade[:, None] * _METAL
+    axes.add_collection(PolyCollection(drawn, facecolors=colours, **_EDGES))
+    axes.plot(*project(points[interface]).T, label="interface nodes", **_INTERFACE)
     axes.set_aspect("equal")
     axes.margins(0.03)
     axes.set_axis_off()
@@ -118,7 +105,7 @@ def _draw_whole(
 
 def _draw_directions(axes: Axes, origin: np.ndarray) -> None:
     for direction, (name, ha, va) in zip(np.eye(3), _AXES, strict=True):
-        foot, head = _VIEW.project(np.stack([origin, origin + _AXIS * direction]))
+        foot, head = project(np.stack([origin, origin + _AXIS * direction]))
         axes.plot(*np.transpose([foot, head]), color=DARK, linewidth=0.9, label="_direction")
         axes.annotate("", head, foot, arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 0})
         axes.annotate(name, head, ha=ha, va=va, fontsize=7.5, annotation_clip=False)
@@ -136,11 +123,9 @@ def _draw_tip(axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.n
         axes.annotate(str(number), node, xytext=(6 * side, 4), ha=alignment, color=RED, **placement)
     axes.annotate("leading edge", nodes[0], xytext=(0, 14), ha="center", va="bottom", **placement)
     axes.annotate("trailing edge", nodes[-1], xytext=(0, -14), ha="center", va="top", **placement)
-    arrow = {"arrowstyle": "-|>", "color": DARK}
+    arrow = {"xycoords": "axes fraction", "arrowprops": {"arrowstyle": "-|>", "color": DARK}}
     across = 0.5 + 0.35 * side
-    axes.annotate(
-        "rotation", (across, 0.95), (across, 0.75), xycoords="axes fraction", ha="center", arrowprops=arrow
-    )
+    axes.annotate("rotation", (across, 0.95), (across, 0.75), ha="center", **arrow)
     axes.set(aspect="equal", xlabel="axial x (mm)", ylabel="tangential y (mm)")
     axes.set_title("(b) the tip from outside")
     axes.margins(0.22)

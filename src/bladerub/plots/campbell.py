@@ -29,30 +29,25 @@ def campbell(
     modes = np.asarray(f_omega), np.asarray(f_fe), np.asarray(f_rom)
     top_of_first, top = 1.5 * float(np.nanmax(modes[2][:, 0])), 1.04 * float(np.nanmax(modes[1:]))
     if ax is not None:
-        _draw(ax, *modes, orders, top_of_first, engine)
+        _draw(ax, modes, orders, top_of_first, engine)
         ax.set_ylabel(_FREQUENCY)
         ax.legend(loc="lower right")
         return ax.figure
     figure = new_figure(PAGE, 0.62 * PAGE)
     all_modes, first = figure.subplots(1, 2)
-    _draw(all_modes, *modes, orders[-1:], top, engine)
+    _draw(all_modes, modes, orders[-1:], top, engine)
     all_modes.set_ylabel(_FREQUENCY)
     all_modes.set_title(f"(a) first {modes[2].shape[1]} modes", pad=16)
-    _draw(first, *modes, orders, top_of_first, engine)
+    _draw(first, modes, orders, top_of_first, engine)
     first.set_title("(b) first mode, $C_1$", pad=16)
     figure.legend(*all_modes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
 def _draw(
-    axes: Axes,
-    f_omega: np.ndarray,
-    f_fe: np.ndarray,
-    f_rom: np.ndarray,
-    orders: range,
-    highest: float,
-    engine: Engine | None,
+    axes: Axes, modes: tuple[np.ndarray, ...], orders: range, highest: float, engine: Engine | None
 ) -> None:
+    f_omega, f_fe, f_rom = modes
     fastest = float(f_omega.max())
     draw_engine_orders(axes, {k: k for k in orders}, fastest, highest)
     for mode in range(f_rom.shape[1]):

@@ -69,10 +69,8 @@ def _mark_slopes(axes: Axes, cycle: LoadingCycle) -> None:
         # the upper corner lies on the branch, `share` of the stress below its end
         x, y = strain - share * stress / slope, stress * (1 - share)
         axes.plot([x - length, x, x], [y - height, y - height, y], color=GREY, linewidth=0.9, label="_slope")
-        text, placement = f"${name}$ = {slope:g}", {"textcoords": "offset points"}
         if name == "E":
-            axes.annotate(text, (x, y - height / 2), xytext=(3, 0), ha="left", va="center", **placement)
+            place = {"xy": (x, y - height / 2), "xytext": (3, 0), "ha": "left", "va": "center"}
         else:
-            axes.annotate(
-                text, (x - length / 2, y - height), xytext=(0, -3), ha="center", va="top", **placement
-            )
+            place = {"xy": (x - length / 2, y - height), "xytext": (0, -3), "ha": "center", "va": "top"}
+        axes.annotate(f"${name}$ = {slope:g}", textcoords="offset points", **place)

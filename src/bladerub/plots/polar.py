@@ -9,32 +9,19 @@ from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
-from bladerub.plots import titles
+from bladerub.plots import style, titles
 from bladerub.plots.scales import greatest
-from bladerub.plots.style import (
-    BLUE,
-    COLUMN,
-    DARK,
-    FIRST,
-    GREY,
-    ORANGE,
-    PAGE,
-    RED,
-    SECOND,
-    new_figure,
-    styled,
-)
 from bladerub.study.maps import CoatingMap
 
 _SHAPES = (
-    {"color": ORANGE, "linestyle": (0, (6, 2)), "linewidth": 1.4},
-    {"color": BLUE, "linestyle": (0, (1.5, 1.2)), "linewidth": 1.4},
-    {"color": RED, "linestyle": "-.", "linewidth": 1.4},
+    {"color": style.ORANGE, "linestyle": (0, (6, 2)), "linewidth": 1.4},
+    {"color": style.BLUE, "linestyle": (0, (1.5, 1.2)), "linewidth": 1.4},
+    {"color": style.RED, "linestyle": "-.", "linewidth": 1.4},
 )
-_COMBINED = {"color": DARK, "linestyle": "-", "linewidth": 2.0}
+_COMBINED = {"color": style.DARK, "linestyle": "-", "linewidth": 2.0}
 
 
-@styled
+@style.styled
 def casing_polar(
     angle: np.ndarray, inward: Mapping[str, np.ndarray], radius: float, magnification: float
 ) -> Figure:
@@ -43,12 +30,11 @@ def casing_polar(
     `inward` is the displacement of the inner surface (n,), m, by name of the shape, at the casing `angle`
     (n,), rad; it is drawn with a `magnification`.
     """
-    figure = new_figure(COLUMN, 1.25 * COLUMN)
+    figure = style.new_figure(style.COLUMN, 1.25 * style.COLUMN)
     largest = max(np.abs(u).max() for u in inward.values())
-    axes = open_polar(figure, 1, 1, 1)
-    axes.plot(
-        *closed(angle, np.full(np.size(angle), radius)), color=GREY, linewidth=1.0, label="round casing"
-    )
+    axes = prepare_polar(figure.add_subplot(projection="polar"))
+    look = {"color": style.GREY, "linewidth": 1.0, "label": "round casing"}
+    axes.plot(*closed(angle, np.full(np.size(angle), radius)), **look)
     looks = [*itertools.islice(itertools.cycle(_SHAPES), len(inward) - 1), _COMBINED]
     for (name, displacement), line in zip(inward.items(), looks, strict=True):
         axes.plot(*closed(angle, radius - magnification * np.asarray(displacement)), label=name, **line)
@@ -63,7 +49,7 @@ def casing_polar(
     return figure
 
 
-@styled
+@style.styled
 def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[pd.DataFrame, Figure]:
     """Draw Fig. 19 from the maps of two coatings that differ in theta: a panel for each speed, on one scale.
 
@@ -75,11 +61,12 @@ def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[
         columns = {"f_omega": f_omega, "theta": coating.case.theta, "angle": coating.angle, "wear": wear}
         profiles.append(pd.DataFrame(columns))
     table = pd.concat(profiles)
-    figure = new_figure(PAGE, (0.2 + 0.8 / len(speeds)) * PAGE)
+    figure = style.new_figure(style.PAGE, (0.2 + 0.8 / len(speeds)) * style.PAGE)
     deepest = 1e3 * greatest(table.wear)
     for index, (f_omega, of_speed) in enumerate(table.groupby("f_omega", sort=False)):
-        axes = open_polar(figure, 1, len(speeds), index + 1)
-        for (theta, rows), look in zip(of_speed.groupby("theta", sort=False), (FIRST, SECOND), strict=True):
+        axes = prepare_polar(figure.add_subplot(1, len(speeds), index + 1, projection="polar"))
+        by_theta, looks = of_speed.groupby("theta", sort=False), (style.FIRST, style.SECOND)
+        for (theta, rows), look in zip(by_theta, looks, strict=True):
             axes.plot(*closed(rows.angle, 1e3 * rows.wear), label=titles.angle(theta), **look)
         axes.set(rorigin=-0.6 * deepest, rlim=(0, 1.06 * deepest))
         axes.set_title(titles.panel(index % 26, titles.speed(f_omega)))
@@ -94,14 +81,7 @@ def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[
     return table, figure
 
 
-def open_polar(figure: Figure, *position: int) -> PolarAxes:
-    """Add polar axes to `figure` at the subplot `position`, prepared."""
-    axes = figure.add_subplot(*position, projection="polar")
-    prepare_polar(axes)
-    return axes
-
-
-def prepare_polar(axes: PolarAxes) -> None:
+def prepare_polar(axes: PolarAxes) -> PolarAxes:
     """Turn polar axes so that 0 is above; labels of the radius stay readable over lines."""
     axes.set_theta_zero_location("N")
     axes.set_thetagrids(range(0, 360, 45))
@@ -109,6 +89,7 @@ def prepare_polar(axes: PolarAxes) -> None:
     axes.tick_params(labelsize=7)
     for label in axes.get_yticklabels():
         label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
+    return axes
 
 
 def closed(angle: np.ndarray, radius: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -17,6 +17,8 @@ LARGE = f"displacement above {LARGE_DISPLACEMENT:.0%} of the blade's length"
 _OUTWARD = 36  # points from the axis whose numbers and name stand between
 _LINE = {"color": DARK, "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
 _ORDER = {"color": "#8f8f8f", "linewidth": 0.6, "zorder": 1.5}
+_ABOVE = {"xytext": (0, 2), "ha": "center", "va": "bottom"}
+_BESIDE = {"xytext": (2, 0), "ha": "left", "va": "center"}
 _NEAREST = (0.13, 0.035)  # shares of the axes; a name of an order closer to the one before is left out
 
 
@@ -36,10 +38,7 @@ def draw_engine_orders(axes: Axes, slopes: Mapping[int, float], x_max: float, y_
         if abs(x - anchor[0]) < _NEAREST[0] * x_max and abs(slope * x - anchor[1]) < _NEAREST[1] * y_max:
             continue
         anchor = (x, slope * x)
-        if slope * x_max > y_max:
-            place = {"xytext": (0, 2), "ha": "center", "va": "bottom"}
-        else:
-            place = {"xytext": (2, 0), "ha": "left", "va": "center"}
+        place = _ABOVE if slope * x_max > y_max else _BESIDE
         look = {"fontsize": 7, "color": "#555555", "annotation_clip": False}
         axes.annotate(f"eo({k})", anchor, textcoords="offset points", **place, **look)
 
@@ -61,10 +60,10 @@ class Engine:
         """Add a second scale, Hz, to the frequencies that run `along` "x" or "y"."""
         self._second(axes, along, self.f1_hz).set_label_text("frequency (Hz)")
 
-    def draw_nominal_speed(self, draw: Callable, in_legend: bool = True) -> None:
+    def draw_nominal_speed(self, draw: Callable) -> None:
         """Draw the nominal speed, if it is known, by `draw`: ``axvline`` or ``axhline`` of the axes."""
         if self.nominal_speed is not None:
-            label = f"nominal speed, {self.nominal_speed:g} rpm" if in_legend else "_nominal"
+            label = f"nominal speed, {self.nominal_speed:g} rpm"
             draw(self.nominal_speed / 60 / self.f1_hz, label=label, zorder=3, **_LINE)
 
     def _second(self, axes: Axes, along: str, factor: float) -> Axis:

@@ -7,27 +7,16 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from bladerub.plots import bins, titles
+from bladerub.plots import bins, style, titles
 from bladerub.plots.scales import LARGE, UNKNOWN, Scales, draw_engine_orders, greatest
-from bladerub.plots.style import (
-    AMPLITUDE_MAP,
-    BLUE,
-    FIRST,
-    MISSING,
-    PAGE,
-    RED,
-    SECOND,
-    new_figure,
-    on_axes,
-    styled,
-)
+from bladerub.plots.style import PAGE, RED, new_figure
 from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import Peak
 
 ORDERS = range(1, 13)
 """Engine orders that are drawn and labelled."""
 
-_LOOKS = (FIRST | {"marker": "o"}, SECOND | {"marker": "s"})
+_LOOKS = (style.FIRST | {"marker": "o"}, style.SECOND | {"marker": "s"})
 _LARGE = {"marker": ">", "color": RED, "markersize": 4, "linestyle": "none", "clip_on": False, "label": LARGE}
 _RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
 
@@ -42,7 +31,7 @@ class PeakSection:
     peak: Peak
 
 
-@on_axes
+@style.on_axes
 def spectrum_map(
     coating: CoatingMap,
     amplitude_range: tuple[float, float],
@@ -64,7 +53,7 @@ def spectrum_map(
     return axes.figure
 
 
-@styled
+@style.styled
 def peak_sections(
     coating: CoatingMap,
     sections: list[PeakSection],
@@ -99,42 +88,28 @@ def peak_sections(
 
 
 def _draw_spectrum(
-    axes: Axes,
-    coating: CoatingMap,
-    amplitude_range: tuple[float, float],
-    f_max: float,
-    scales: Scales,
-    **colour_bar,
+    axes: Axes, coating: CoatingMap, amplitude_range: tuple, f_max: float, scales: Scales, **colour_bar
 ) -> None:
     speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.spectrum_amplitude)
     order_edges = np.maximum(bins.edges(coating.spectrum_order), 0)
-    frequency_edges = np.outer(speed_edges, order_edges)
-    low, high = amplitude_range
-    mesh = axes.pcolormesh(
-        frequency_edges,
-        np.broadcast_to(speed_edges[:, None], frequency_edges.shape),
-        np.ma.masked_invalid(rows),
-        cmap=AMPLITUDE_MAP,
-        norm=LogNorm(1e3 * low, 1e3 * high),
-        rasterized=True,
-    )
+    frequency_edges, edges = np.broadcast_arrays(np.outer(speed_edges, order_edges), speed_edges[:, None])
+    look = {"cmap": style.AMPLITUDE_MAP, "norm": LogNorm(*(1e3 * end for end in amplitude_range))}
+    mesh = axes.pcolormesh(frequency_edges, edges, np.ma.masked_invalid(rows), **look, rasterized=True)
     speed_max = float(speed_edges[-1])
     draw_engine_orders(axes, {k: 1 / k for k in ORDERS}, f_max, speed_max)
-    dashed = {"color": BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.4}
+    dashed = {"color": style.BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.4}
     axes.plot(coating.C1, coating.f_omega, label="$C_1$", zorder=3, **dashed)
     large = coating.f_omega[scales.is_large(coating)]
     if large.size:
         axes.plot(np.zeros(large.size), large, **_LARGE)
-    start = 0.0
     if scales.engine:
-        start = speed_edges[0]
         scales.engine.draw_nominal_speed(axes.axhline)
         scales.engine.add_speeds(axes, "y")
         scales.engine.add_frequencies(axes, "x")
     axes.set(
-        facecolor=MISSING,
+        facecolor=style.MISSING,
         xlim=(0, f_max),
-        ylim=(start, speed_max),
+        ylim=(speed_edges[0] if scales.engine else 0.0, speed_max),
         xlabel=r"frequency $f\,/\,f_1(0)$",
         ylabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
     )

@@ -27,10 +27,10 @@ def tip_profile(scene: PressedElements) -> Figure:
     return figure
 
 
-def _outlines(scene: PressedElements, lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
-    """Corners (n, 4, 2), mm, of the elements between two heights above the original surface."""
-    lean = np.tan(scene.coating.theta)
-    half = _DRAWN_WIDTH * scene.width / 2
+def _outlines(scene: PressedElements) -> np.ndarray:
+    """Corners (n, 4, 2), mm, of the elements between their worn or pressed ends and the casing."""
+    lower, upper = scene.shortening, np.full_like(scene.shortening, scene.coating.thickness)
+    lean, half = np.tan(scene.coating.theta), _DRAWN_WIDTH * scene.width / 2
     corners = [
         np.stack([scene.element * scene.width + side * half + lean * height, height], axis=-1)
         for side, height in ((-1, lower), (1, lower), (1, upper), (-1, upper))
@@ -42,24 +42,16 @@ def _draw_whole(axes: Axes, scene: PressedElements) -> None:
     thickness = 1e3 * scene.coating.thickness
     bottom, top = -0.45 * thickness, 1.18 * thickness
     x_min, x_max = 1e3 * (scene.element[[0, -1]] * scene.width + np.array([-1, 1.7]) * scene.width)
-    outer_ends = np.full_like(scene.shortening, scene.coating.thickness)
-    pressed = scene.shortening > scene.wear
-    axes.add_collection(
-        PolyCollection(
-            _outlines(scene, scene.shortening, outer_ends),
-            facecolors=np.where(pressed, ORANGE, _ELEMENT_COLOUR).tolist(),
-            edgecolors=DARK,
-            linewidths=0.5,
-        )
-    )
+    colours = np.where(scene.shortening > scene.wear, ORANGE, _ELEMENT_COLOUR).tolist()
+    look = {"facecolors": colours, "edgecolors": DARK, "linewidths": 0.5}
+    axes.add_collection(PolyCollection(_outlines(scene), **look))
     axes.fill_between([x_min, x_max], thickness, top, facecolor=GREY, hatch="///", alpha=0.5, linewidth=0)
-    axes.text(
-        (x_min + x_max) / 2, (thickness + top) / 2, "rigid casing", ha="center", va="center", bbox=_LABEL
-    )
+    middle, centred = ((x_min + x_max) / 2, (thickness + top) / 2), {"ha": "center", "va": "center"}
+    axes.text(*middle, "rigid casing", bbox=_LABEL, **centred)
     x, y = 1e3 * (scene.tip_offset * scene.width), 1e3 * scene.tip_depth
     axes.fill_between(x, bottom, y, color=BLUE, alpha=0.35, linewidth=0)
     axes.plot(x, y, color=BLUE, linewidth=1.8, label="_tip")
-    axes.text(0, 0.8 * bottom, "blade tip", ha="center", va="center", color=DARK)
+    axes.text(0, 0.8 * bottom, "blade tip", color=DARK, **centred)
     _draw_angle(axes, scene)
     _draw_force(axes, scene)
     start, height = 1e3 * ((scene.tip_offset[-1] + 1) * scene.width), 0.55 * bottom
@@ -108,10 +100,5 @@ def _draw_ends(axes: Axes, scene: PressedElements) -> None:
         xlabel="distance from the interface node along the circumference (mm)",
         ylabel="height over the\noriginal surface (µm)",
     )
-    axes.figure.legend(
-        *axes.get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=5,
-        handlelength=1.4,
-        columnspacing=1.0,
-    )
+    look = {"loc": "outside lower center", "ncols": 5, "handlelength": 1.4, "columnspacing": 1.0}
+    axes.figure.legend(*axes.get_legend_handles_labels(), **look)

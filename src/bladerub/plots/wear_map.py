@@ -30,12 +30,6 @@ def _draw_wear(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
         scales.engine.draw_nominal_speed(axes.axvline)
 
 
-def _name_speeds(axes: Axes, scales: Scales) -> None:
-    axes.set_xlabel(r"rotational frequency $f_\Omega\,/\,f_1(0)$")
-    if scales.engine:
-        scales.engine.add_speeds(axes, "x")
-
-
 @on_axes
 def wear_map(coating: CoatingMap, scales: Scales = UNKNOWN, ax: Axes | None = None) -> Figure:
     """Draw Fig. 6: worn depth over speed and casing angle, below it the number of worn lobes.
@@ -43,21 +37,19 @@ def wear_map(coating: CoatingMap, scales: Scales = UNKNOWN, ax: Axes | None = No
     Runs that exceeded the displacement limit are crossed below: their wear is that of their early end. Those
     with a displacement beyond small ones are ringed. Axes that are given hold the upper diagram.
     """
-    if ax is not None:
-        _draw_wear(ax, coating, scales)
-        _name_speeds(ax, scales)
-        return ax.figure
-    figure = new_figure(PAGE, 0.68 * PAGE)
-    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
+    upper = lower = ax
+    if ax is None:
+        figure = new_figure(PAGE, 0.68 * PAGE)
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
+        _draw_lobes(lower, coating, scales)
+        handles, labels = lower.get_legend_handles_labels()
+        if len(handles) > 1:
+            figure.legend(handles, labels, loc="outside lower center", ncols=4, handletextpad=0.4)
     _draw_wear(upper, coating, scales)
-    _draw_lobes(lower, coating, scales)
-    _name_speeds(lower, scales)
+    lower.set_xlabel(r"rotational frequency $f_\Omega\,/\,f_1(0)$")
     if scales.engine:
-        scales.engine.draw_nominal_speed(lower.axvline, in_legend=False)
-    handles = [handle for axes in (lower, upper) for handle in axes.get_legend_handles_labels()[0]]
-    if len(handles) > 1:
-        figure.legend(handles=handles, loc="outside lower center", ncols=4, handletextpad=0.4)
-    return figure
+        scales.engine.add_speeds(lower, "x")
+    return upper.figure
 
 
 def _draw_lobes(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
@@ -69,3 +61,5 @@ def _draw_lobes(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
     axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
     axes.grid(axis="y")
     axes.set(ylim=(0, 1.2 * max(1, coating.lobes.max())), ylabel="worn lobes")
+    if scales.engine:
+        scales.engine.draw_nominal_speed(axes.axvline)

@@ -15,7 +15,7 @@ from bladerub.extras.export.recording import Recording
 from bladerub.extras.rows.spec import Row
 from bladerub.io import atomic
 from bladerub.plots import titles
-from bladerub.plots.polar import closed, open_polar
+from bladerub.plots.polar import closed, prepare_polar
 from bladerub.plots.style import BLUE, COLUMN, DARK, GREY, ORANGE, new_figure, styled
 from bladerub.study.grid import CoatingCase
 
@@ -41,7 +41,7 @@ def animate(
     scale = (1 - _RING) / max(depth.max(), np.abs(radial).max(), 1e-9)
     angle = element_angle(depth.shape[1])
     figure = new_figure(1.2 * COLUMN, 1.35 * COLUMN)
-    axes = open_polar(figure, 1, 1, 1)
+    axes = prepare_polar(figure.add_subplot(projection="polar"))
     axes.set_rlim(0, 1)
     axes.set_rgrids([_RING], [])
     axes.plot(*closed(angle, np.full(angle.size, _RING)), color=GREY, linewidth=0.8)
