@@ -82,19 +82,17 @@ def make(
         report(f"{f_omega:.4f} ({why}): {results[-1].message}")
     over_runs, over_time, number = ("run",), ("run", "revolution_number"), np.arange(1, revolutions + 1)
     amplitude = np.stack([result.revolution_amplitude for result in results])
-    described = {
-        "f_omega": (over_runs, list(reasons), "1", "rotational frequency, normalised"),
-        "why": (over_runs, list(reasons.values()), "1", "why it was made"),
-        "revolution_number": (("revolution_number",), number, "1", "revolution, counted from 1"),
-        "revolution_amplitude": (
-            *(over_time, amplitude, "m"),
-            "half the range of the radial displacement of node 1 in each revolution",
-        ),
-        "max_wear": (over_runs, [result.wear.max() for result in results], "m", "greatest worn depth"),
-        "status": (over_runs, [result.status for result in results], "1", "completed or unbounded"),
-        "seconds": (over_time, seconds, "s", "wall time until the end of each revolution"),
+    deepest = [result.wear.max() for result in results]
+    half_range = "half the range of the radial displacement of node 1 in each revolution"
+    variables = {
+        "f_omega": Variable(over_runs, list(reasons), "1", "rotational frequency, normalised"),
+        "why": Variable(over_runs, list(reasons.values()), "1", "why it was made"),
+        "revolution_number": Variable(("revolution_number",), number, "1", "revolution, counted from 1"),
+        "revolution_amplitude": Variable(over_time, amplitude, "m", half_range),
+        "max_wear": Variable(over_runs, deepest, "m", "greatest worn depth"),
+        "status": Variable(over_runs, [result.status for result in results], "1", "completed or unbounded"),
+        "seconds": Variable(over_time, seconds, "s", "wall time until the end of each revolution"),
     }
-    variables = {name: Variable(*description) for name, description in described.items()}
     hdf5.write(path, variables, asdict(case), provenance(config.plain()))
 
 

@@ -22,7 +22,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.records import COATING
-from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
+from bladerub.contact.modes import Modes, mode_shapes_at, modes_at
 from bladerub.contact.result import Outcome
 from bladerub.contact.run import History, Segment, integrate
 from bladerub.contact.schemes import Recurrence
@@ -65,12 +65,9 @@ def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
     speeds = 0.5 * (edges[1:] + edges[:-1])
     duration = abs(spec.f_end - start) / n_steps_of_speed / spec.rate
     revolutions = spec.run.revolutions + np.concatenate([[0.0], np.cumsum(speeds * f1_hz * duration)])
-    cuts = np.rint(revolutions * n_elements).astype(int)
+    cuts = np.append(0, np.rint(revolutions * n_elements).astype(int))
     cuts[-1] += -cuts[-1] % n_elements
-    planned = [SpeedStep(start, 0, int(cuts[0]))]
-    planned += [
-        SpeedStep(*fields) for fields in zip(speeds.tolist(), cuts.tolist(), cuts[1:].tolist(), strict=False)
-    ]
+    planned = map(SpeedStep, [start, *speeds.tolist()], cuts[:-1].tolist(), cuts[1:].tolist())
     return [step for step in planned if step.last > step.first]
 
 
@@ -109,9 +106,8 @@ def _speed_by_revolution(
 class _Stage(NamedTuple):
     """The blade at one speed: all its modes, and the simulation in them."""
 
-    omega: np.ndarray
+    modes: Modes
     shapes: np.ndarray
-    tip: np.ndarray
     rule: Recurrence
     simulation: Simulation
 
@@ -138,12 +134,9 @@ class _Sweep:
                 first = last
 
     def _stage(self, f_omega: float) -> _Stage:
-        omega, shapes = mode_shapes_at(self.blade, f_omega)
-        tip = at_tip(self.blade, shapes, self.run)
+        modes, (_, shapes) = modes_at(self.blade, f_omega, self.run), mode_shapes_at(self.blade, f_omega)
         run = replace(self.run, f_omega=f_omega)
-        return _Stage(
-            omega, shapes, tip, *set_up_modes(Modes(omega, tip, self.blade.n_interface), self.blade, run)
-        )
+        return _Stage(modes, shapes, *set_up_modes(modes, self.blade, run))
 
 
 def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
@@ -155,7 +148,7 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
 
     into = new.shapes.T @ blade.mass @ old.shapes  # from modal coordinates to modal coordinates
     force = energy.forces_of_nodes(old_state, old.rule)[0]
-    static, static_new = old.tip.T @ force / old.omega**2, new.tip.T @ force / new.omega**2
+    static, static_new = (stage.modes.tip.T @ force / stage.modes.omega**2 for stage in (old, new))
     n, n_new = old.rule.omega.size, new.rule.omega.size
     share, share_new = np.sqrt(old.rule.share[:n]), np.sqrt(new.rule.share[:n_new])
     vibration, velocity = _free_motion(old.rule, old_state.q, force)
@@ -163,7 +156,7 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     total = static.copy()
     total[:n] += share * vibration
     moved = into @ total
-    work = 0.5 * (np.sum((new.omega * moved) ** 2) - np.sum((old.omega * total) ** 2))
+    work = 0.5 * (np.sum((new.modes.omega * moved) ** 2) - np.sum((old.modes.omega * total) ** 2))
 
     vibration = into[:n_new, :n] @ vibration + share_new * (into @ static - static_new)[:n_new]
     state.q[:, :n_new] = _rows(new.rule, vibration, into[:n_new, :n] @ velocity, force)

@@ -16,7 +16,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.kernel import loop
 from bladerub.contact.kernel.loop import Progress, Simulation
-from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
+from bladerub.contact.modes import mode_shapes_at, modes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import History, Segment, integrate, run_result
 from bladerub.contact.setup import set_up_modes
@@ -45,8 +45,7 @@ def simulate_sampled(
     `bladerub.contact.run.simulate`.
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
-    omega, shapes = mode_shapes_at(blade, spec.f_omega)
-    modes = Modes(omega, at_tip(blade, shapes, spec), blade.n_interface)
+    modes, (_, shapes) = modes_at(blade, spec.f_omega, spec), mode_shapes_at(blade, spec.f_omega)
     rule, simulation = set_up_modes(modes, blade, spec)
     ends = np.rint(np.linspace(0, n_elements, min(instants, n_elements) + 1)).astype(np.int64)
     n, groups, lanes = rule.omega.size, len(rule.tip) // rule.n_nodes, len(simulation.state.force[0]) // 3
@@ -58,7 +57,7 @@ def simulate_sampled(
     integrate(segments, history, progress)
     # what the resolved modes displace, and how the others answer to the contact forces
     moving = np.sqrt(rule.share[:n])[:, None] * shapes[:, :n].T
-    answer = modes.tip * ((1.0 - rule.share) / omega**2) @ shapes.T
+    answer = modes.tip * ((1.0 - rule.share) / modes.omega**2) @ shapes.T
     times = np.add.outer(np.arange(revolutions), ends[1:] / n_elements).ravel()
     return SampledRun(
         run_result(blade, spec, rule, simulation, history, initial),
