@@ -47,11 +47,6 @@ def arcs(n_elements: int) -> np.ndarray:
     return np.arange(m + 1) * n_elements // m
 
 
-def arc_means(values: np.ndarray, bounds: np.ndarray) -> np.ndarray:
-    """Average `values` (n, n_elements) over the arcs between `bounds` (m + 1,), giving (n, m)."""
-    return np.add.reduceat(values, bounds[:-1], axis=1, dtype=float) / np.diff(bounds)
-
-
 def kept_orders(f_omega: np.ndarray, order: np.ndarray, max_frequency: float) -> np.ndarray:
     """Count the engine orders `order` (m,), from 0, that are kept at each of the speeds `f_omega` (n,).
 
@@ -71,12 +66,16 @@ def parts(
 ) -> dict[str, str]:
     """Pack one coating, each part as `packed`; parameters as of `of_runs` and `kept_orders`.
 
-    ``wear``: bytes, n speeds × m arcs, differences along each row of `linear_steps`. ``spectrum``: bytes,
-    `logarithmic_steps`, the kept orders of each speed one after the other. ``growth``: the same in two bytes
-    (little-endian), for each speed the revolutions of the study's run and of the longer run. ``figures``:
-    JSON, `of_runs` and the scales, in mm.
+    ``wear``: bytes, n speeds × m arcs, means in steps of 1/255 of the deepest of each row, and of these the
+    differences along the row. ``spectrum``: bytes, `logarithmic_steps`, the kept orders of each speed one
+    after the other. ``growth``: the same in two bytes (little-endian), for each speed the revolutions of the
+    study's run and of the longer run. ``figures``: JSON, `of_runs` and the scales, in mm.
     """
-    wear, deepest = linear_steps(arc_means(coating.wear, arcs(coating.angle.size)))
+    bounds = arcs(coating.angle.size)
+    wear = np.add.reduceat(coating.wear, bounds[:-1], axis=1, dtype=float) / np.diff(bounds)
+    deepest = wear.max(axis=1)
+    steps = np.rint(255 * (wear / np.where(deepest > 0, deepest, 1.0)[:, None])).astype(np.uint8)
+    differences = np.diff(steps, axis=1, prepend=np.uint8(0))  # modulo 256: smooth rows compress better so
     counts = kept_orders(coating.f_omega, coating.spectrum_order, max_frequency)
     spectrum = np.concatenate([row[:n] for row, n in zip(coating.spectrum_amplitude, counts, strict=True)])
     spectrum_range = AMPLITUDE_FLOOR, log_range(spectrum, AMPLITUDE_FLOOR)[1]
@@ -90,12 +89,10 @@ def parts(
         "revolutions": coating.revolution_amplitude.shape[1],
         "confirmation_revolutions": coating.confirmation_amplitude.shape[1],
     }
-    spectrum_steps = logarithmic_steps(spectrum, *spectrum_range, np.uint8)
-    growth_steps = logarithmic_steps(growth, *growth_range, np.uint16).astype("<u2")
     return {
-        "wear": packed(differences(wear).tobytes()),
-        "spectrum": packed(spectrum_steps.tobytes()),
-        "growth": packed(growth_steps.tobytes()),
+        "wear": packed(differences.tobytes()),
+        "spectrum": packed(logarithmic_steps(spectrum, *spectrum_range, np.uint8).tobytes()),
+        "growth": packed(logarithmic_steps(growth, *growth_range, np.uint16).astype("<u2").tobytes()),
         "figures": packed(json_text(numbers).encode()),
     }
 
@@ -156,13 +153,6 @@ def command(case: CoatingCase, configs: list[str]) -> str:
     return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}{options}"
 
 
-def linear_steps(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Write each row of `values` (n, m), not negative, in steps of 1/255 of its greatest value (n,)."""
-    greatest = values.max(axis=1)
-    share = values / np.where(greatest > 0, greatest, 1.0)[:, None]
-    return np.rint(255 * share).astype(np.uint8), greatest
-
-
 def logarithmic_steps(values: np.ndarray, low: float, high: float, dtype: type) -> np.ndarray:
     """Write `values` in equal ratios from `low` to `high`, both positive, as unsigned integers `dtype`.
 
@@ -171,11 +161,6 @@ def logarithmic_steps(values: np.ndarray, low: float, high: float, dtype: type) 
     top = np.iinfo(dtype).max
     share = np.log(np.clip(values, low, high) / low) / np.log(high / low)
     return np.where(np.isnan(values), 0, 1 + np.rint((top - 1) * np.nan_to_num(share))).astype(dtype)
-
-
-def differences(steps: np.ndarray) -> np.ndarray:
-    """Differences (n, m) of `steps` (n, m) along each row, modulo 256: smooth rows compress better so."""
-    return np.diff(steps, axis=1, prepend=np.uint8(0))
 
 
 def log_range(values: np.ndarray, floor: float) -> tuple[float, float]:

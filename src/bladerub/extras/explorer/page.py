@@ -25,6 +25,9 @@ from bladerub.study.variants import of_case
 
 _PROGRAM = ["data.js", "choice.js", "pictures.js", "words.js", "main.js"]
 """In the order in which they use each other."""
+_PEAK = {"order": "order", "f_peak": "f", "amplitude": "Y", "reason": "reason", "draws": "draws"}
+_PEAK |= {"amplitude_low": "low", "amplitude_high": "high"}
+"""Columns of ``peaks.csv`` and of the bands by their names in the page."""
 
 
 def build(
@@ -59,10 +62,21 @@ def build(
         for name, text in coating.parts(coating_map, divergence, runs, revolutions, max_frequency).items():
             data.append(f'<script type="application/gzip" id="{name}-{index}">{text}</script>')
     library, program = package("plotly.offline", "study").get_plotlyjs(), "\n".join(map(_text, _PROGRAM))
+    study = {
+        **settings,
+        "amplitude_range": mm(settings["amplitude_range"]),
+        "made_by": software(),
+        "amplitude_floor": mm(coating.AMPLITUDE_FLOOR),
+        "orders": list(spectrum.ORDERS),
+        "last_order": coating.LAST_ORDER,
+        "look": _look(),
+        **scales,
+        "coatings": coatings,
+    }
     return Template(_text("index.html")).substitute(
         policy=_policy(library, program),
         style=_text("style.css"),
-        study=coating.json_text({**_about(settings), **scales, "coatings": coatings}),
+        study=coating.json_text(study),
         data="\n".join(data),
         library=library,
         program=program,
@@ -88,11 +102,12 @@ def _scales(coating_map: CoatingMap, max_frequency: float) -> dict[str, Any]:
 
 
 def _coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[str, Any]:
-    """Name, properties and resonant peaks (``peaks.csv``, perhaps with bands; Y in mm) of one coating.
+    """Name, properties and resonant peaks (``peaks.csv``, perhaps with bands; lengths in mm) of one coating.
 
     What is missing is NaN: a peak, with its ``reason``, and the band of one without an ensemble.
     """
-    columns = list(dict.fromkeys([*peaks, "draws", "amplitude_low", "amplitude_high", "reason"]))
+    shown = of_case(peaks, case).reindex(columns=list(_PEAK)).rename(columns=_PEAK)
+    shown[["Y", "low", "high"]] *= 1e3
     return {
         "name": case.name,
         "title": titles.coating(case),
@@ -100,29 +115,7 @@ def _coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict
         "rigid": case.is_rigid,
         "friction": case.friction,
         "command": coating.command(case, configs),
-        "peaks": [
-            {"order": row.order, "f": row.f_peak, "Y": mm(row.amplitude)}
-            | {
-                "reason": row.reason,
-                "draws": row.draws,
-                "low": mm(row.amplitude_low),
-                "high": mm(row.amplitude_high),
-            }
-            for row in of_case(peaks, case).reindex(columns=columns).itertuples()
-        ],
-    }
-
-
-def _about(settings: dict[str, Any]) -> dict[str, Any]:
-    """Collect what the page says and draws besides the data."""
-    return {
-        **settings,
-        "amplitude_range": mm(settings["amplitude_range"]),
-        "made_by": software(),
-        "amplitude_floor": mm(coating.AMPLITUDE_FLOOR),
-        "orders": list(spectrum.ORDERS),
-        "last_order": coating.LAST_ORDER,
-        "look": _look(),
+        "peaks": shown.to_dict("records"),
     }
 
 

@@ -70,10 +70,10 @@ function marker(line) {
 }
 
 const VERDICTS = {
-  steady: { words: "steady", symbol: "circle", color: LOOK.dark, size: 4 },
-  saturating: { words: "saturating", symbol: "circle-open", color: LOOK.blue, size: 7 },
-  divergent: { words: "divergent", symbol: "triangle-up", color: LOOK.orange, size: 8 },
-  unbounded: { words: "exceeded the limit", symbol: "x-thin-open", color: LOOK.red, size: 6 },
+  steady: { words: "steady", sign: "●", symbol: "circle", color: LOOK.dark, size: 4 },
+  saturating: { words: "saturating", sign: "○", symbol: "circle-open", color: LOOK.blue, size: 7 },
+  divergent: { words: "divergent", sign: "▲", symbol: "triangle-up", color: LOOK.orange, size: 8 },
+  unbounded: { words: "exceeded the limit", sign: "✕", symbol: "x-thin-open", color: LOOK.red, size: 6 },
 };
 
 function verdict(runs, speed) {
@@ -145,10 +145,6 @@ function overFrequency(row, speed) {
   return Array.from({ length: FREQUENCY_BINS }, (_, i) => row[Math.round((i + 0.5) * scale)] ?? NaN);
 }
 
-function overOrder(row) {
-  return Array.from(row.subarray(0, ORDER_BINS));
-}
-
 const ORDER_BINS = study.order.filter((order) => order <= study.last_order).length;
 
 // Each order as a line, and its name where it leaves the picture; names too close to the last one are left out.
@@ -196,7 +192,7 @@ function spectrumMap(coating, choice) {
   const step = byOrder ? study.order[1] : across / FREQUENCY_BINS;
   const level = (value) => (Number.isNaN(value) ? null : Math.log10(value));
   const scale = study.amplitude_range;
-  const row = (i) => (byOrder ? overOrder : overFrequency)(coating.spectrum[i], i);
+  const row = (i) => (byOrder ? Array.from(coating.spectrum[i].subarray(0, ORDER_BINS)) : overFrequency(coating.spectrum[i], i));
   const place = (edges) => ({ x0: byOrder ? 0 : step / 2, dx: step, y: edges });
   const map = maps((i) => row(i).map(level), place, (speeds) => ({
     customdata: speeds.map(row),
@@ -272,8 +268,6 @@ function amplitudeAxis(more) {
   return axis("amplitude (mm)", { type: "log", exponentformat: "none", dtick: 1, showgrid: true, gridcolor: "#e8e8e8", ...more });
 }
 
-const LOWEST = study.amplitude_floor;
-
 // One line of the spectrum map for each coating.
 function spectrumLine(shown, choice) {
   const byOrder = choice.axis === "order";
@@ -298,7 +292,7 @@ function spectrumLine(shown, choice) {
       showlegend: shown.length > 1,
       legend: { x: 1, xanchor: "right", y: 1, bgcolor: "rgba(255,255,255,0.85)" },
       xaxis: axis(byOrder ? "engine order" : FREQUENCY, { range: [0, across] }),
-      yaxis: amplitudeAxis({ range: [Math.log10(LOWEST), Math.log10(2 * highest)] }),
+      yaxis: amplitudeAxis({ range: [Math.log10(study.amplitude_floor), Math.log10(2 * highest)] }),
       shapes: [
         ...orders.map((k) => upright(k * unit, { color: "#c4c4c4", width: 0.8 })),
         upright(study.C1[choice.speed] * (byOrder ? 1 / f : 1), { color: LOOK.blue, width: 2, dash: "7px,4px" }),

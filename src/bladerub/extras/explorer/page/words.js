@@ -32,11 +32,9 @@ function band(low, high, draws, write) {
   return write(low) === write(high) ? `; the same from ${draws} starts` : `; 5–95 % band of ${draws} starts: ${write(low)} to ${write(high)}`;
 }
 
-const VERDICT_SIGNS = { steady: "●", saturating: "○", divergent: "▲", unbounded: "✕" };
-
 function verdictInWords(coating, speed) {
   const kind = verdict(coating.runs, speed);
-  const words = element("span", { class: `verdict ${kind}` }, `${VERDICT_SIGNS[kind]} ${VERDICTS[kind].words}`);
+  const words = element("span", { class: `verdict ${kind}` }, `${VERDICTS[kind].sign} ${VERDICTS[kind].words}`);
   const longer = wasRepeated(coating, speed) ? " of the longer run" : "";
   const { draws, divergent_draws: share } = coating.runs;
   const starts = share[speed] === null ? "" : `; ${digits(draws[speed] * share[speed])} of ${draws[speed]} starts diverge`;
@@ -214,11 +212,9 @@ function walkTable(event) {
   }
 }
 
-const names = { wear: "Wear", spectrum: "Spectrum" };
-
 function showTitles(shown) {
   for (const { side, coating } of shown) {
-    for (const [picture, name] of Object.entries(names)) {
+    for (const [picture, name] of Object.entries({ wear: "Wear", spectrum: "Spectrum" })) {
       const badge = element("span", { class: `badge ${side}` }, side);
       page(`#${picture}-${side}-title`).replaceChildren(`${name}: `, badge, ` ${coating.title}`);
     }
@@ -252,7 +248,7 @@ function showThinned() {
   page("#thinned").textContent =
     `Pictures of wear show the mean of the 8 nodes, averaged over ${stretches} stretches of the circumference, in steps of ` +
     "1/255 of the deepest of each run. Spectra are kept up to the frequency " +
-    `${study.max_frequency} or engine order ${study.last_order}, whichever is higher, from ${LOWEST} mm up, to about 3 %; amplitudes of revolutions to ` +
+    `${study.max_frequency} or engine order ${study.last_order}, whichever is higher, from ${study.amplitude_floor} mm up, to about 3 %; amplitudes of revolutions to ` +
     "0.1 %. Values read from a picture therefore begin with ≈. Numbers in the tables above are those of the study, as computed. " +
     `Everything in full: results/maps and results/tables. Made by ${study.made_by}; drawn by plotly.js.`;
 }
