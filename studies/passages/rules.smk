@@ -27,7 +27,7 @@ rule sweeps:
         maps=swept_maps,
         sweeps=expand(SWEEPS, coating=SWEPT, direction=DIRECTIONS, rate=RATES),
         analysing=files_behind("extras.passages.sweeps", "study.peaks"),
-        drawing=files_behind("extras.plots.sweeps", "plots.titles"),
+        drawing=files_behind("extras.plots.passages", "plots.titles"),
     output:
         **drawn("sweeps", "6. Sweeps and long runs"),
         **described(table=shown(f"{TABLES}/sweeps.csv", "sweeps_table", "6. Sweeps and long runs")),
@@ -69,7 +69,7 @@ rule long_runs:
     input:
         long=expand(f"{RESULTS}/long_runs/{{coating}}.h5", coating=COATINGS),
         analysing=files_behind("extras.passages.long_runs", "study.growth"),
-        drawing=files_behind("extras.plots.long_runs", "plots.titles"),
+        drawing=files_behind("extras.plots.passages", "plots.titles"),
     output:
         **drawn("long_runs", "6. Sweeps and long runs"),
         **described(table=shown(f"{TABLES}/long_runs.csv", "long_runs_table", "6. Sweeps and long runs")),

@@ -9,8 +9,7 @@ from bladerub.extras.chart import ridge, stiffening, table
 from bladerub.extras.chart.choice import broken_limits, pareto, recommended
 from bladerub.extras.chart.stress import read_chart
 from bladerub.extras.plots.chart_moduli import chart_map, chart_safe
-from bladerub.extras.plots.chart_pareto import chart_pareto
-from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
+from bladerub.extras.plots.chart_peaks import chart_explanation, chart_pareto, chart_stiffening
 from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 

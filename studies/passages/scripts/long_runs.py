@@ -5,7 +5,7 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.passages import long_runs
-from bladerub.extras.plots.long_runs import long_runs as draw
+from bladerub.extras.plots.passages import long_runs as draw
 from bladerub.settings.study import typed
 from bladerub.workflow import outputs
 

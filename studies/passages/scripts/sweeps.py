@@ -5,7 +5,7 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.passages import sweeps
-from bladerub.extras.plots.sweeps import sweeps as draw
+from bladerub.extras.plots.passages import sweeps as draw
 from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs

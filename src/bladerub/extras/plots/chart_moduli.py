@@ -26,6 +26,7 @@ LETTERS = {"amplitude": "A", "wear": "W", "divergent_share": "D", "fatigue": "F"
 _SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08", "#4d2604"]
 """From none to all limits exceeded, the last where the stress is limited too."""
 
+_PAPER = {"marker": "o", "mfc": "white", "mec": DARK, "mew": 0.5, "ls": "none"}
 _RIDGE = {"color": DARK, "linewidth": 1.3, "marker": "s", "markersize": 2.2}
 _RIDGE_OF = {"peak": "displacement", "worn_volume": "worn volume"}
 
@@ -63,16 +64,13 @@ def chart_map(chart: pd.DataFrame, quantity: str, unit: float) -> Figure:
     about = drawn_quantity(quantity)
     norm = _norm(chart[quantity] * about.factor, about.logarithmic)
     figure = new_figure(PAGE, 0.58 * PAGE)
-    drawn = _panels(figure, chart, unit)
-    for axes, rows in drawn:
+    for axes, rows in _panels(figure, chart, unit):
         grid = _over_moduli(rows.assign(drawn=rows[quantity] * about.factor), "drawn")
         mesh = _colour(axes, grid, cmap=HEIGHT_MAP, norm=norm)
         _contours(axes, grid, norm)
         _mark_paper(axes, rows)
         _ridge(axes, _over_moduli(rows, about.ridge))
-    bar = figure.colorbar(
-        mesh, ax=[axes for axes, _ in drawn], label=about.label, location="bottom", aspect=50
-    )
+    bar = figure.colorbar(mesh, ax=figure.axes, label=about.label, location="bottom", aspect=50)
     if about.logarithmic:
         bar.locator = LogLocator(subs=(1, 2, 5))
         bar.formatter = "{x:g}"
@@ -109,8 +107,8 @@ def _ridge(axes: Axes, grid: pd.DataFrame) -> None:
 def _keys(about: Quantity) -> list[Line2D]:
     highest = _RIDGE_OF.get(about.ridge, f"$Y_{{{about.ridge[1:]}}}$")
     ridge = f"ridge: for each E the K of the greatest {highest}"
-    paper = {"marker": "o", "ms": 3.5, "mfc": "white", "mec": DARK, "mew": 0.5, "ls": "none"}
-    return [Line2D([], [], **_RIDGE, label=ridge), Line2D([], [], **paper, label="the paper's coatings")]
+    paper = Line2D([], [], ms=3.5, label="the paper's coatings", **_PAPER)
+    return [Line2D([], [], label=ridge, **_RIDGE), paper]
 
 
 @styled
@@ -119,13 +117,8 @@ def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Limits, unit: 
 
     `broken` is for the same rows, from `bladerub.extras.chart.choice.broken_limits`; E = 1 is `unit`, Pa.
     """
-    judged = chart.assign(
-        broken=broken.sum(axis=1),
-        letters=[
-            "".join(letter for name, letter in LETTERS.items() if row.get(name))
-            for _, row in broken.iterrows()
-        ],
-    )
+    lettered = broken.rename(columns=LETTERS)
+    judged = chart.assign(broken=broken.sum(axis=1), letters=lettered.dot(lettered.columns))
     figure = new_figure(PAGE, 0.55 * PAGE)
     for axes, rows in _panels(figure, judged, unit):
         shades = _SHADES[: len(broken.columns) + 1]
@@ -177,4 +170,4 @@ def _colour(axes: Axes, grid: pd.DataFrame, **look) -> QuadMesh:
 def _mark_paper(axes: Axes, rows: pd.DataFrame) -> None:
     """Mark those of the rows that are the paper's coatings with a dot."""
     marked = rows[rows.E.isin(PAPER_E) & rows.K.isin(PAPER_K)]
-    axes.plot(marked.E, marked.K, "o", ms=2.4, mfc="white", mec=DARK, mew=0.5, ls="none")
+    axes.plot(marked.E, marked.K, ms=2.4, **_PAPER)

@@ -21,15 +21,14 @@ def rigs(passes: pd.DataFrame, compared: pd.DataFrame) -> Figure:
     grid = figure.subplots(len(names), 2, squeeze=False)
     for (forces, depths), name in zip(grid, names, strict=True):
         rig_passes = passes[passes.rig == name]
+        number = rig_passes["pass"]
         measured = compared[compared.rig == name].set_index("quantity").measured_on_rig
         marker = "o" if len(rig_passes) == 1 else None
         for axes, columns in ((forces, _FORCES), (depths, _DEPTHS)):
             for column, (label, colour, factor) in columns.items():
-                axes.plot(
-                    rig_passes["pass"], factor * rig_passes[column], color=colour, marker=marker, label=label
-                )
+                axes.plot(number, factor * rig_passes[column], color=colour, marker=marker, label=label)
                 if column in measured and pd.notna(measured[column]):
-                    axes.plot(rig_passes["pass"].iloc[-1], factor * measured[column], "x", color=colour)
+                    axes.plot(number.iloc[-1], factor * measured[column], "x", color=colour)
             axes.set(xlim=(0, 1.05 * len(rig_passes)), ylim=(0, 1.1 * axes.get_ylim()[1]), xlabel="pass")
             axes.xaxis.set_major_locator(MaxNLocator(integer=True))
             axes.legend(loc="best", frameon=False)

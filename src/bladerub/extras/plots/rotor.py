@@ -35,19 +35,19 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
         figure = new_figure(PAGE, 1.0)
         figure.text(0.5, 0.5, "single nominal blades only", ha="center", fontsize=8)
         return figure
-    lines = _lines(list(groups.items()))
-    widest = max(map(_line_width, lines))
+    widths = {group: max(len(members), 3) for group, members in groups.items()}
+    lines, widest = _lines(widths), max(widths.values())
     figure = new_figure(max(PAGE, 0.35 * widest + 2.0), 5.8 * len(lines))
     parts = figure.subfigures(len(lines), 1, squeeze=False)[:, 0]
     for part, line in zip(parts, lines, strict=True):
-        widths = [_width(members) for _, members in line]
-        if slack := widest - _line_width(line):
-            widths.append(slack)  # stays empty: all combinations are as far from each other
-        panels = part.subplots(3, len(widths), sharex="col", squeeze=False, width_ratios=widths)
+        columns = [widths[group] for group in line]
+        if slack := widest - sum(columns):
+            columns.append(slack)  # stays empty: all combinations are as far from each other
+        panels = part.subplots(3, len(columns), sharex="col", squeeze=False, width_ratios=columns)
         for axes in panels[:, len(line) :].flat:
             axes.remove()
-        for column, ((case, f_omega), members) in zip(panels.T, line, strict=False):
-            _draw_group(column, sorted(members, key=_key), table)
+        for column, (case, f_omega) in zip(panels.T, line, strict=False):
+            _draw_group(column, sorted(groups[case, f_omega], key=_key), table)
             column[0].set_title(f"E = {case.E:g}, K = {case.K:g}\n{titles.speed(f_omega)}", fontsize=8)
         for axes, (_, _, text) in zip(panels[:, 0], _PANELS, strict=True):
             axes.set_ylabel(text, fontsize=8)
@@ -55,20 +55,11 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
     return figure
 
 
-def _width(members: list[Combination]) -> int:
-    return max(len(members), 3)
-
-
-def _line_width(line: list[tuple]) -> int:
-    return sum(_width(members) for _, members in line)
-
-
-def _lines(groups: list[tuple]) -> list[list[tuple]]:
-    """Break the groups into lines that are no wider than the widest group."""
-    widest = max(_line_width([group]) for group in groups)
+def _lines(widths: dict[tuple, int]) -> list[list[tuple]]:
+    """Break groups of these widths into lines that are no wider than the widest group."""
     lines: list[list[tuple]] = [[]]
-    for group in groups:
-        if lines[-1] and _line_width([*lines[-1], group]) > widest:
+    for group in widths:
+        if sum(widths[member] for member in (*lines[-1], group)) > max(widths.values()):
             lines.append([])
         lines[-1].append(group)
     return lines

@@ -12,8 +12,8 @@ from bladerub.extras.passages.sweeps import SpeedSweep
 from bladerub.extras.plots.chart_moduli import QUANTITIES, chart_map
 from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
 from bladerub.extras.plots.law_cycles import law_cycles
+from bladerub.extras.plots.passages import sweeps
 from bladerub.extras.plots.steps import steps
-from bladerub.extras.plots.sweeps import sweeps
 from bladerub.study.grid import CoatingCase
 
 
