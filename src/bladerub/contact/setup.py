@@ -18,7 +18,6 @@ from bladerub.contact.spec import PLASTIC, ElementLaw, RunSpec
 from bladerub.contact.start import (
     ALONE,
     Seat,
-    by_lane_of,
     deflect,
     force_direction,
     stator_record,
@@ -62,7 +61,7 @@ def set_up_modes(
     flight = kernel("free_flight").free_flight(rule, leap, slope, edge(tip))
     layer = None
     if hasattr(law, "Layer"):
-        area = by_lane_of(modes.n_nodes)(element_area(blade, spec))
+        area = records.by_lane(element_area(blade, spec), modes.n_nodes)
         layer = law.Layer(law, coating, area, passage * coating.n_elements)
     simulation = kernel("loop").Simulation
     return rule, simulation(kernel("modal").pack(rule), flight, stator, tip, state, n_steps, layer)

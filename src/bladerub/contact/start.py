@@ -1,7 +1,7 @@
 """From blade and run to the records that the time loop works on, and to where the tip starts."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache, partial
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import casing
 from bladerub.contact.kernel import records
-from bladerub.contact.laws import element_parameters, module_for, module_of
+from bladerub.contact.laws import element_parameters, module_of
 from bladerub.contact.modes import Modes, tip_radii
 from bladerub.contact.schemes import Recurrence, normal_compliance
 from bladerub.contact.spec import Casing, Coating, RunSpec
@@ -21,7 +21,6 @@ from bladerub.contact.strips import (
     running_clearance,
     start_position,
 )
-from bladerub.numerics.lanes import lanes_for
 from bladerub.numerics.memory import aligned
 
 SEARCH_RANGE = 4
@@ -41,18 +40,13 @@ class Seat(NamedTuple):
 ALONE = Seat()
 
 
-def by_lane_of(n_nodes: int) -> Callable[[np.ndarray], np.ndarray]:
-    """Return `records.by_lane` for a tip of `n_nodes`."""
-    return partial(module_for(lanes_for(n_nodes), "contact.kernel.records").by_lane, n_nodes=n_nodes)
-
-
 def tip_record(blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE) -> records.Tip:
     """Describe the blade tip for the time loop."""
     n_elements = spec.coating.n_elements
     radius, curvature_radius = tip_radii(blade)
     per_metre = n_elements / (2 * np.pi * radius)
     _check_reach(curvature_radius, per_metre, spec)
-    by_lane = by_lane_of(blade.n_interface)
+    by_lane = partial(records.by_lane, n_nodes=blade.n_interface)
     tip = records.Tip(
         start=by_lane(start_position(blade, spec) % 1.0 + seat.ahead),
         per_metre=by_lane(per_metre),
@@ -93,7 +87,7 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     coating = spec.coating
     normal_factor, tangential_factor = force_direction(coating)
     compliances = np.split(_self_compliance(rule, coating), [blade.n_interface])
-    by_lane = by_lane_of(blade.n_interface)
+    by_lane = partial(records.by_lane, n_nodes=blade.n_interface)
     area = by_lane(element_area(blade, spec))
     if coating.is_rigid:
         parameters = np.zeros((len(module_of(coating.element_law).Element._fields), area.size))
@@ -168,13 +162,13 @@ def deflect(state: records.State, modes: Modes, rule: Recurrence, spec: RunSpec,
     damped = math.sqrt(1.0 - damping**2)
     back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
     state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
-    displacement = state.q[:, :n] @ by_lane_of(rule.n_nodes)(rule.tip).T
-    radial, tangential, *further = np.moveaxis(displacement.reshape(3, -1, tip.radius.size), 1, 0)
+    displacement = state.q[:, :n] @ records.by_lane(rule.tip, rule.n_nodes).T
+    radial, tangential, *_ = displacement.reshape(3, -1, tip.radius.size).swapaxes(0, 1)
     approach = np.hypot(tip.radius + radial, tangential) - tip.radius
     if not max(np.abs(radial).max(), np.abs(tangential).max()) <= tip.limit:
         raise ValueError(
             f"initial_displacement = {spec.initial_displacement:g} m: moves a node of the tip beyond the "
             f"displacement limit, {tip.limit:g} m"
         )
-    moved = np.concatenate([radial, tangential, approach, *further], axis=1)
-    state.u[:, : moved.shape[1]] = moved
+    state.u[:, : displacement.shape[1]] = displacement
+    state.u[:, -tip.radius.size :] = approach

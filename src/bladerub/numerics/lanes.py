@@ -9,6 +9,8 @@ USUAL = 8
 """Doubles in a vector of the modules that are imported by name."""
 LANES = USUAL
 """Doubles in a vector of the module that is being imported."""
+COORDINATES = 2
+"""Of each node there: radial, tangential, and a further one where the tip has a further motion."""
 INSTANCE = f"{USUAL}"
 """Name of what is compiled by it: of these vectors, and of what is not the paper's."""
 

@@ -4,6 +4,7 @@ Compiled code that takes, slices or passes on arrays counts their references eac
 what it does with them. It therefore gets records of their `addresses`.
 """
 
+import functools
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +13,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from bladerub.numerics.lanes import LANES
+from bladerub.numerics.lanes import COORDINATES, LANES
 from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.vectors import DOUBLE, FUSED, VECTOR, broadcast, instruction, spread, vector
 
@@ -121,52 +122,98 @@ def _fields(record, kind, llvm_type):
     result = types.NamedUniTuple(kind, n, record.instance_class)
 
     def generate(context, builder, signature, arguments):
-        places = (place_at(builder, arguments[1], LANES * row, llvm_type) for row in range(n))
-        return context.make_tuple(builder, result, [builder.load(place, align=8) for place in places])
+        return context.make_tuple(builder, result, _rows(builder, arguments[1], n, llvm_type))
 
     return result(record, types.intp), generate
 
 
-def _sums(n):
-    """Build four instructions on `n` vectors at once, which stay in registers.
-
-    They give vectors of zeros; add to each of `n` sums the product of a vector and that in its row of an
-    array; read `n` numbers and put each in every lane of a vector; and sum up the products of `n` rows of an
-    array and `n` vectors, in two halves at the same time.
-    """
-    several = types.UniTuple(vector, n)
-
-    @instruction(several)
-    def no_sums(builder):
-        return cgutils.pack_array(builder, [ir.Constant(VECTOR, [0.0] * LANES)] * n)
-
-    @instruction(several, several, types.intp, vector)
-    def add_products(builder, sums, rows, a):
-        products = (builder.fmul(row, a, flags=FUSED) for row in _rows(builder, rows, n))
-        pairs = zip(cgutils.unpack_tuple(builder, sums), products, strict=True)
-        return cgutils.pack_array(builder, [builder.fadd(*pair, flags=FUSED) for pair in pairs])
-
-    @instruction(several, types.intp)
-    def broadcast_each(builder, address):
-        numbers = (builder.load(place_at(builder, address, i, DOUBLE)) for i in range(n))
-        return cgutils.pack_array(builder, [spread(builder, number) for number in numbers])
-
-    @instruction(vector, types.intp, several)
-    def sum_of_products(builder, rows, factors):
-        products = list(zip(_rows(builder, rows, n), cgutils.unpack_tuple(builder, factors), strict=True))
-        halves = [builder.fmul(*product, flags=FUSED) for product in products[:2]]
-        for i, product in enumerate(products[2:]):
-            halves[i % 2] = builder.fadd(halves[i % 2], builder.fmul(*product, flags=FUSED), flags=FUSED)
-        return builder.fadd(*halves, flags=FUSED)
-
-    return no_sums, add_products, broadcast_each, sum_of_products
+def _rows(builder, address, n, kind=VECTOR):
+    """Load what is `n` times a vector apart."""
+    return [builder.load(place_at(builder, address, LANES * row, kind), align=8) for row in range(n)]
 
 
-def _rows(builder, address, n):
-    """Load consecutive vectors."""
-    places = (place_at(builder, address, LANES * i, VECTOR) for i in range(n))
-    return [builder.load(place, align=8) for place in places]
+@intrinsic
+def store_fields(context, record, address):
+    """Store the vectors of a named tuple into consecutive rows of a vector each."""
+
+    def generate(context, builder, signature, arguments):
+        for row, part in enumerate(cgutils.unpack_tuple(builder, arguments[0])):
+            builder.store(part, place_at(builder, arguments[1], LANES * row, VECTOR), align=8)
+        return context.get_dummy_value()
+
+    return types.void(record, types.intp), generate
 
 
-no_sums, add_products, broadcast_each, sum_of_products = _sums(2 * LANES)
-no_lane_sums, add_lane_products, broadcast_lanes, sum_of_lane_products = _sums(LANES)
+def _by_vector(build):
+    """Decorate what builds a vector of a tuple from those of two tuples alike."""
+
+    @functools.wraps(build)  # its signature, too: the builder is in the place of Numba's context
+    def typed(context, one, other):
+        def generate(context, builder, signature, arguments):
+            pairs = zip(*(cgutils.unpack_tuple(builder, argument) for argument in arguments), strict=True)
+            return context.make_tuple(builder, one, [build(builder, *pair) for pair in pairs])
+
+        return one(one, other), generate
+
+    return intrinsic(typed)
+
+
+@_by_vector
+def add_fields(builder, a, b):
+    """Add two named tuples of vectors."""
+    return builder.fadd(a, b, flags=FUSED)
+
+
+@_by_vector
+def subtract_fields(builder, a, b):
+    """Subtract a named tuple of vectors from another."""
+    return builder.fsub(a, b, flags=FUSED)
+
+
+@intrinsic
+def add_products(context, sums, rows, a):
+    """Add to each vector of a tuple the product of `a` and that in its row of the array at `rows`."""
+
+    def generate(context, builder, signature, arguments):
+        values, address, factor = arguments
+        products = [builder.fmul(row, factor, flags=FUSED) for row in _rows(builder, address, sums.count)]
+        pairs = zip(cgutils.unpack_tuple(builder, values), products, strict=True)
+        return context.make_tuple(builder, sums, [builder.fadd(*pair, flags=FUSED) for pair in pairs])
+
+    return sums(sums, types.intp, vector), generate
+
+
+WIDTH = COORDINATES * LANES
+"""Coordinates of the tip: those below are of a vector for each, and stay in registers."""
+_several = types.UniTuple(vector, WIDTH)
+
+
+@instruction(_several)
+def no_sums(builder):
+    """Vectors of zeros."""
+    return cgutils.pack_array(builder, [ir.Constant(VECTOR, [0.0] * LANES)] * WIDTH)
+
+
+@instruction(_several, types.intp)
+def broadcast_each(builder, address):
+    """Read numbers and put each in every lane of a vector."""
+    numbers = (builder.load(place_at(builder, address, i, DOUBLE)) for i in range(WIDTH))
+    return cgutils.pack_array(builder, [spread(builder, number) for number in numbers])
+
+
+@instruction(vector, types.intp, _several)
+def sum_of_products(builder, rows, factors):
+    """Sum up the products of rows of an array and vectors."""
+    products = list(zip(_rows(builder, rows, WIDTH), cgutils.unpack_tuple(builder, factors), strict=True))
+    total = _in_halves(builder, products[: 2 * LANES])
+    if further := products[2 * LANES :]:
+        total = builder.fadd(total, _in_halves(builder, further), flags=FUSED)
+    return total
+
+
+def _in_halves(builder, products):
+    """Sum up products in two halves at the same time."""
+    halves = [builder.fmul(*product, flags=FUSED) for product in products[:2]]
+    for i, product in enumerate(products[2:]):
+        halves[i % 2] = builder.fadd(halves[i % 2], builder.fmul(*product, flags=FUSED), flags=FUSED)
+    return builder.fadd(*halves, flags=FUSED)

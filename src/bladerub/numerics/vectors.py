@@ -277,19 +277,15 @@ def _paired(builder, width, a, b):
     return builder.fadd(first_half, builder.shuffle_vector(a, b, _lanes(second_lanes)), flags=FUSED)
 
 
-@instruction(vector, types.UniTuple(vector, LANES))
-def lane_sums(builder, vectors):
-    """Vector of the sums of all lanes of so many vectors as it has lanes."""
-    sums = cgutils.unpack_tuple(builder, vectors)
-    for width in reversed(_HALVES):
-        sums = [_paired(builder, width, a, b) for a, b in zip(sums[::2], sums[1::2], strict=True)]
-    return sums[0]
+@intrinsic
+def lane_sums(context, record, vectors):
+    """Put for each field of the named tuple `record` the sums of all lanes of so many vectors into one."""
+    result = types.NamedUniTuple(vector, vectors.count // LANES, record.instance_class)
 
+    def generate(context, builder, signature, arguments):
+        sums = cgutils.unpack_tuple(builder, arguments[1])
+        for width in reversed(_HALVES):
+            sums = [_paired(builder, width, a, b) for a, b in zip(sums[::2], sums[1::2], strict=True)]
+        return context.make_tuple(builder, result, sums)
 
-@instruction(types.UniTuple(types.UniTuple(vector, LANES), 2), types.UniTuple(vector, 2 * LANES))
-def halves(builder, vectors):
-    """First and second half of twice as many vectors as they have lanes."""
-    parts = cgutils.unpack_tuple(builder, vectors)
-    return cgutils.pack_array(
-        builder, [cgutils.pack_array(builder, parts[:LANES]), cgutils.pack_array(builder, parts[LANES:])]
-    )
+    return result(record, vectors), generate

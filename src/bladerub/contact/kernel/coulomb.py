@@ -3,14 +3,15 @@
 from bladerub.contact.friction import mobilisation
 from bladerub.contact.gap import rotation_distance
 from bladerub.contact.kernel.modal import (
+    APPROACH,
     add_tip_displacement,
     displaced,
-    displacement_of_nodes,
-    no_tip_displacement,
+    load_tip,
+    store_tip,
     tip_displacement,
 )
 from bladerub.numerics.machine_code import inlined, within
-from bladerub.numerics.memory import address_of, copy, load, store
+from bladerub.numerics.memory import address_of, copy, load, no_sums, store
 from bladerub.numerics.vectors import LANES, broadcast
 
 
@@ -22,7 +23,7 @@ def predict_sliding(modal, state, q, q_before, angle):
     exponential scheme on the steps before and after, of which the mean is meant. The blade rotates by `angle`
     (rad) in a step.
     """
-    sums = no_tip_displacement()
+    sums = no_sums()
     for k in range(0, modal.n, LANES):
         present, before = load(q, k), load(q_before, k)
         if modal.corrects:
@@ -30,10 +31,7 @@ def predict_sliding(modal, state, q, q_before, angle):
         else:
             increment = 0.5 * (load(modal.now, k) * present - load(modal.before, k) * before - before)
         sums = add_tip_displacement(modal, k, increment, sums)
-    sliding = tip_displacement(sums)
-    store(state.free_sliding, 0, sliding.radial)
-    store(state.free_sliding, LANES, sliding.tangential)
-    store(state.free_sliding, 2 * LANES, broadcast(angle))
+    store_tip(state.free_sliding, tip_displacement(sums), broadcast(angle))
 
 
 @within
@@ -43,9 +41,8 @@ def mobilise(modal, stator, tip, state, normal_radial, normal_tangential, approa
     copy(state.force, frictionless, 3 * LANES)
     store(frictionless, 0, stator.normal_factor * normal_radial * normal_force)
     store(frictionless, LANES, stator.normal_factor * normal_tangential * normal_force)
-    free = displacement_of_nodes(load(state.free_sliding, 0), load(state.free_sliding, LANES))
-    moved = displaced(modal, modal.mobility, frictionless, free)
-    rotation = rotation_distance(tip, load(state.free_sliding, 2 * LANES), approach)
+    moved = displaced(modal.mobility, frictionless, load_tip(state.free_sliding))
+    rotation = rotation_distance(tip, load(state.free_sliding, APPROACH), approach)
     sliding = rotation + normal_radial * moved.tangential - normal_tangential * moved.radial
     stopping = (0.0 - stator.tangential_factor) * normal_force * load(modal.stopping, 0)
     store(state.tangential_factor, 0, stator.tangential_factor * mobilisation(sliding, stopping))

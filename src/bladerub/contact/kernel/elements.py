@@ -54,12 +54,6 @@ def pose_of(approach, displacement):
 
 
 @inlined
-def load_pose(u):
-    """Pose at a displacement that was stored (`bladerub.contact.kernel.modal.store_tip`)."""
-    return load(u, 2 * LANES)
-
-
-@inlined
 def approach_at(pose, offset):
     """Approach of the profile to the casing at `offset` elements from the node, m, without its relief."""
     return pose

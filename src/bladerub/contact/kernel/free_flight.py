@@ -8,16 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.contact.kernel.modal import (
-    add_tip_displacement,
-    in_vectors,
-    no_tip_displacement,
-    tip_displacement,
-)
+from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
 from bladerub.contact.kernel.records import N_FORMS
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.machine_code import inlined
-from bladerub.numerics.memory import aligned, load, store
+from bladerub.numerics.memory import aligned, load, no_sums, store
 from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
 
 MOST_STEPS = 24
@@ -112,7 +107,7 @@ def fly(flight, modal, q, q1, q2):
     mean increment of node 1 (m); and the `bound` of the next flight (m).
     """
     loss = mean = reach = broadcast(0.0)
-    sums = no_tip_displacement()
+    sums = no_sums()
     for k in range(0, modal.n, LANES):
         present = load(q, k)
         last, change = present - load(q1, k), present - load(q2, k)

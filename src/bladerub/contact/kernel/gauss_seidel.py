@@ -13,10 +13,10 @@ from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import LAYERED, rigid_surface, wrap
-from bladerub.contact.kernel.modal import ROWS
-from bladerub.contact.tip import coverage, relief
+from bladerub.contact.kernel.modal import FURTHER
+from bladerub.contact.tip import coverage, edge, relief
 from bladerub.numerics.machine_code import inlined, within
-from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
+from bladerub.numerics.memory import WIDTH, add_to, address_of, load, read, read_fields, store, write
 from bladerub.numerics.vectors import LANES
 
 NODE_TOLERANCE = 1e-12
@@ -36,7 +36,6 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
     force, normal_force = state.force, state.normal_force
     position, surface = state.scratch, address_of(state.scratch, 2 * LANES)
     approaches, turned = address_of(state.scratch, 4 * LANES), address_of(state.scratch, 6 * LANES)
-    rows = width()
     for _ in range(MAX_SWEEPS):
         if not is_within_limit(tip, load(u, 0), load(u, LANES)):
             return True
@@ -50,8 +49,8 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)
             mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
         for j in range(LANES):
-            compliance, guess = _self_compliance(modal, stator, state, rows, j), read(normal_force, j)
-            further = further_of(u, j)
+            compliance, guess = _self_compliance(modal, stator, state, j), read(normal_force, j)
+            further = read(u, FURTHER + j)
             store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
             free_approach = read(approaches, j) + compliance * guess
             if stator.is_rigid:
@@ -74,46 +73,22 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             )
             store(turned, 0, radial)
             store(turned, LANES, tangential)
-            for k in range(j, rows, LANES):
+            for k in range(j, WIDTH, LANES):
                 by = read(turned, k) - read(force, k)
                 write(force, k, read(turned, k))
-                add_displacement(modal, u, rows * k, by)
-            change = max(change, further_change(tip, u, j, further))
+                for i in range(0, WIDTH, LANES):
+                    add_to(u, i, load(modal.compliance, WIDTH * k + i) * by)
+            change = max(change, edge(tip) * abs(read(u, FURTHER + j) - further))
         if change <= tolerance:
             return converged
     return False
 
 
-@inlined
-def width():
-    """Coordinates of the tip."""
-    return ROWS
-
-
-@inlined
-def further_of(u, j):
-    """Further coordinate of node `j`, which the search leaves as it is while it looks at this node."""
-    return 0.0
-
-
-@inlined
-def further_change(tip, u, j, before):
-    """Most that a change of the further coordinate moves the profile of node `j`, m."""
-    return 0.0
-
-
-@inlined
-def add_displacement(modal, u, row, by):
-    """Add to a displacement what a change of one force makes, from `row` of the compliances on."""
-    for i in range(0, ROWS, LANES):
-        store(u, i, load(u, i) + load(modal.compliance, row + i) * by)
-
-
 @within
-def _self_compliance(modal, stator, state, rows, j):
+def _self_compliance(modal, stator, state, j):
     """Retreat of node `j` per unit of its own force in the direction that friction gives to that, m/N."""
     turned = stator.tangential_factor - read(state.tangential_factor, j)
-    return max(0.0, read(stator.self_compliance, j) + turned * read(modal.compliance, rows * j + LANES + j))
+    return max(0.0, read(stator.self_compliance, j) + turned * read(modal.compliance, WIDTH * j + LANES + j))
 
 
 @within

@@ -17,7 +17,7 @@ from bladerub.contact.kernel.accounting import add_work, update_coating
 from bladerub.contact.kernel.coulomb import predict_sliding
 from bladerub.contact.kernel.elements import LAYERED, is_clear
 from bladerub.contact.kernel.free_flight import FreeFlight
-from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct, store_tip
+from bladerub.contact.kernel.modal import APPROACH, Modal, advance_forced, advance_free, correct, store_tip
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
 from bladerub.contact.sources import solver_digest
@@ -61,8 +61,8 @@ class Simulation:
     ):
         self.modal, self.flight, self.stator, self.tip, self.state = modal, flight, stator, tip, state
         self.steps_per_element, self.layer = steps_per_element, layer
-        kept, moves = state.layer.shape[1] // LANES, modal.further is not None
-        shape = shapes(modal.n, stator.n_elements, stator.n_elements if LAYERED else 0, kept, moves)
+        kept = state.layer.shape[1] // LANES
+        shape = shapes(modal.n, stator.n_elements, stator.n_elements if LAYERED else 0, kept)
         records = modal, flight, stator, tip, state
         for record in records:
             check(record, shape)
@@ -87,7 +87,7 @@ class Simulation:
     def integrate(self, displacement: np.ndarray, first: int) -> Progress:
         """Integrate as `advance`, without what the law lets happen between passages."""
         last, address = first + displacement.size, displacement.ctypes.data
-        _, _, *done = integrate(*self.records, self.steps_per_element, first, last, False, 0.0, address)
+        _, _, *done = integrate(self.records, self.steps_per_element, first, last, False, 0.0, address)
         return Progress(*done)
 
 
@@ -135,7 +135,7 @@ def _store_displacement(modal, tip, displacement, u):
 @inlined
 def _stays_clear(modal, flight, tip, u, reach, minimum_gap):
     """Whether a free flight in which no node approaches by more than `reach` surely touches nothing."""
-    radial, tangential, approach = load(u, 0) - reach, load(u, LANES), load(u, 2 * LANES) + reach
+    radial, tangential, approach = load(u, 0) - reach, load(u, LANES), load(u, APPROACH) + reach
     sideways = absolute(tangential) + flight.sideways * reach
     return is_clear(tip, radial, sideways, approach, u, minimum_gap)
 
@@ -208,14 +208,13 @@ def _put_in_order(rows, n, turns):
 
 
 @njit_on_disk(solver_digest(), nogil=True)  # threads of one process integrate at the same time
-def integrate(
-    modal, flight, stator, tip, state, steps_per_element, first, last, is_flying, reach, displacement
-):
+def integrate(records, steps_per_element, first, last, is_flying, reach, displacement):
     """Integrate elements `first` to `last`; `displacement` is the address of the mean of each.
 
     A part that goes on gets `is_flying` and `reach` of the part before. Returns these, then the fields of
     `Progress`.
     """
+    modal, flight, stator, tip, state = records
     turns = n_flights = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element

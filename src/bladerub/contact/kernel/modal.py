@@ -6,23 +6,27 @@ import numpy as np
 
 from bladerub.contact.kernel.records import by_lane
 from bladerub.contact.schemes import Recurrence
+from bladerub.numerics.lanes import COORDINATES
 from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import (
+    WIDTH,
+    add_fields,
     add_products,
-    add_to_number,
     address_of,
     aligned,
     broadcast_each,
     load,
+    load_fields,
     no_sums,
     read,
     store,
+    store_fields,
     sum_of_products,
 )
-from bladerub.numerics.vectors import LANES, broadcast, halves, lane_sums
+from bladerub.numerics.vectors import LANES, broadcast, lane_sums
 
-ROWS = 2 * LANES
-"""Coordinates of the tip: radial displacement of each node, then tangential."""
+FURTHER, APPROACH = 2 * LANES, 3 * LANES
+"""Where the further coordinates, or the forces along them, begin in a row of `State`, and the approaches."""
 
 
 class Modal(NamedTuple):
@@ -32,7 +36,8 @@ class Modal(NamedTuple):
     now: np.ndarray  # (n,): Coefficients of the recurrence
     before: np.ndarray
     loss: np.ndarray
-    # (n / 8, 16, 8): Displacement of the tip per unit of each mode, a block for each vector of modes
+    # (n / 8, 16, 8): Displacement of the tip per unit of each mode, a block for each vector of modes;
+    # (n / 8, 24, 8) with a further motion
     tip: np.ndarray
     gain: np.ndarray  # (n,): Modal coordinates per unit of modal force
     # (16, 16): Displacement of the tip in the step of each force itself, m/N; (24, 24) with a further motion
@@ -43,27 +48,23 @@ class Modal(NamedTuple):
     mobility: np.ndarray
     # (8,): The most that tangential forces of 1 N on all nodes take from the sliding distance of each, m
     stopping: np.ndarray
-    # (n / 8, 8, 8): Further coordinate of each node per unit of each mode, if there is one
-    further: np.ndarray | None
 
 
 def pack(rule: Recurrence) -> Modal:
     """Arrange the coefficients of a scheme for the time loop."""
     n = rule.n_nodes
-    tip = by_lane(rule.tip, n)
     mobility = (1.0 if rule.corrects else 0.5) * (rule.tip * rule.gain) @ rule.tip.T
     modal = Modal(
         n=rule.now.size + -rule.now.size % LANES,
         now=_padded(rule.now),
         before=_padded(rule.before),
         loss=_padded(rule.loss),
-        tip=in_vectors(tip[:ROWS]),
+        tip=in_vectors(by_lane(rule.tip, n)),
         gain=_padded(rule.gain),
         compliance=_by_lane_both(rule.compliance, n),
         corrects=rule.corrects,
         mobility=_by_lane_both(mobility, n),
         stopping=by_lane(np.abs(mobility[n : 2 * n, n : 2 * n]).sum(axis=1), n),
-        further=in_vectors(tip[ROWS:]) if len(tip) > ROWS else None,
     )
     return aligned(modal)
 
@@ -85,11 +86,9 @@ def in_vectors(rows: np.ndarray) -> np.ndarray:
     return padded.reshape(len(rows), -1, LANES).swapaxes(0, 1)
 
 
-class Displacement(NamedTuple):
-    """Of the nodes of the tip, a vector each, m."""
-
-    radial: np.ndarray
-    tangential: np.ndarray
+_NAMES = ("radial", "tangential", "further")[:COORDINATES]
+Displacement = NamedTuple("Displacement", [(name, np.ndarray) for name in _NAMES])
+"""Of the nodes of the tip, a vector each, m; with a further motion its coordinates, too."""
 
 
 @inlined
@@ -99,7 +98,7 @@ def advance_free(modal, q, q1, q2):
     Returns the displacement of the tip, and the damping loss of the step before, spread over the lanes (J):
     its end is known only now.
     """
-    loss, sums = broadcast(0.0), no_tip_displacement()
+    loss, sums = broadcast(0.0), no_sums()
     for k in range(0, modal.n, LANES):
         x, modal_loss = _recur(modal, k, q, q1, q2)
         loss = loss + modal_loss
@@ -111,7 +110,7 @@ def advance_free(modal, q, q1, q2):
 @inlined
 def advance_forced(modal, force, q, q1, q2):
     """Move the modes as `advance_free`, under the contact forces (24,) of the step before."""
-    loss, forces = broadcast(0.0), spread_forces(force)
+    loss, forces = broadcast(0.0), broadcast_each(force)
     for k in range(0, modal.n, LANES):
         x, modal_loss = _recur(modal, k, q, q1, q2)
         loss = loss + modal_loss
@@ -122,7 +121,7 @@ def advance_forced(modal, force, q, q1, q2):
 @inlined
 def correct(modal, force, q):
     """Add the effect of contact forces (24,) to the modal coordinates; return the displacement of the tip."""
-    forces = spread_forces(force)
+    forces = broadcast_each(force)
     for k in range(0, modal.n, LANES):
         store(q, k, load(q, k) + load(modal.gain, k) * modal_force(modal, k, forces))
     return _project(modal, q)
@@ -139,81 +138,48 @@ def _recur(modal, k, q, q1, q2):
 
 @inlined
 def _project(modal, q):
-    sums = no_tip_displacement()
+    sums = no_sums()
     for k in range(0, modal.n, LANES):
         sums = add_tip_displacement(modal, k, load(q, k), sums)
     return tip_displacement(sums)
 
 
 @inlined
-def spread_forces(force):
-    """Each contact force in all lanes of a vector, for `modal_force`."""
-    return broadcast_each(force)
-
-
-@inlined
 def modal_force(modal, k, forces):
-    """Force on the modes from mode k on."""
-    return sum_of_products(address_of(modal.tip, ROWS * k), forces)
-
-
-@inlined
-def no_tip_displacement():
-    """Give the sums, one for each coordinate of the tip, to which `add_tip_displacement` adds."""
-    return no_sums()
+    """Force on the modes from mode k on, by contact forces in all lanes of a vector each."""
+    return sum_of_products(address_of(modal.tip, WIDTH * k), forces)
 
 
 @inlined
 def add_tip_displacement(modal, k, x, sums):
-    """Add what the modes `x`, from mode k on, displace at the tip."""
-    return add_products(sums, address_of(modal.tip, ROWS * k), x)
+    """Add what the modes `x`, from mode k on, displace at the tip, to a sum for each coordinate of it."""
+    return add_products(sums, address_of(modal.tip, WIDTH * k), x)
 
 
 @inlined
 def tip_displacement(sums):
     """Displacement of the tip from the sums: the interface rows of eq. (6)."""
-    radial, tangential = halves(sums)
-    return Displacement(lane_sums(radial), lane_sums(tangential))
-
-
-@inlined
-def displacement_of_nodes(radial, tangential):
-    """Displacement of the tip where only its nodes move."""
-    return Displacement(radial, tangential)
+    return lane_sums(Displacement, sums)
 
 
 @inlined
 def store_tip(u, displacement, approach):
     """Store a displacement of the tip and the approach of its nodes to the casing (m) in `u` (32,)."""
-    store(u, 0, displacement.radial)
-    store(u, LANES, displacement.tangential)
-    store(u, 2 * LANES, approach)
+    store_fields(displacement, u)
+    store(u, APPROACH, approach)
 
 
 @inlined
 def load_tip(u):
     """Load a displacement of the tip that was stored."""
-    return Displacement(load(u, 0), load(u, LANES))
+    return load_fields(Displacement, u)
 
 
 @inlined
-def move_tip(modal, k, change, u):
-    """Add to a stored displacement what a `change` of mode k alone makes of it."""
-    block, lane = k // LANES, k % LANES
-    for row in range(ROWS):
-        by = read(modal.tip, LANES * (ROWS * block + row) + lane)
-        add_to_number(u, row, by * change)
-
-
-@inlined
-def displaced(modal, response, force, free):
+def displaced(response, force, free):
     """Add to the displacement `free` what contact forces (24,) cause, a row of `response` for each."""
-    radial, tangential = free
-    more_radial = more_tangential = broadcast(0.0)  # two sums at the same time
-    for i in range(0, ROWS, 2):
-        by, by_next = read(force, i), read(force, i + 1)
-        radial = radial + load(response, ROWS * i) * by
-        tangential = tangential + load(response, ROWS * i + LANES) * by
-        more_radial = more_radial + load(response, ROWS * (i + 1)) * by_next
-        more_tangential = more_tangential + load(response, ROWS * (i + 1) + LANES) * by_next
-    return Displacement(radial + more_radial, tangential + more_tangential)
+    moved, more = free, tip_displacement(no_sums())  # two sums at the same time
+    for i in range(0, WIDTH, 2):
+        moved = add_products(moved, address_of(response, WIDTH * i), broadcast(read(force, i)))
+        more = add_products(more, address_of(response, WIDTH * (i + 1)), broadcast(read(force, i + 1)))
+    return add_fields(moved, more)

@@ -17,9 +17,17 @@ from bladerub.contact.gap import closest_position, is_within_limit, normal, norm
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import approach_at, linearise, no_linearisation, pose_of, rows_under
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
-from bladerub.contact.kernel.modal import Displacement, displaced, load_tip, store_tip
+from bladerub.contact.kernel.modal import APPROACH, displaced, load_tip, store_tip
 from bladerub.numerics.machine_code import inlined
-from bladerub.numerics.memory import add_to_number, clear, load, store
+from bladerub.numerics.memory import (
+    add_fields,
+    add_to_number,
+    clear,
+    load,
+    store,
+    store_fields,
+    subtract_fields,
+)
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast
 
 TOLERANCE = 1e-11
@@ -51,7 +59,7 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
     loop. Returns whether the displacement is within the limit.
     """
     free = load_tip(u)  # u₀
-    start = moved = add_response(free, state.response)
+    start = moved = add_fields(free, load_tip(state.response))
     geometry = _geometry(tip, start, travel)  # eq. (7)
     pose = loaded = pose_of(geometry.approach, start)
     linear = no_linearisation(pose)
@@ -89,7 +97,7 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
         else:
             store_tip(u, start, geometry.approach)
         moved = _by_sweeps(modal, stator, tip, travel, state, u)
-    store_response(state.response, free, moved)
+    store_fields(subtract_fields(moved, free), state.response)
     return is_within_limit(tip, moved.radial, moved.tangential)
 
 
@@ -101,19 +109,6 @@ def _geometry(tip, displacement, travel):
     position = closest_position(tip, tangential, travel)
     rows = rows_under(tip, position, position)
     return Geometry(radial, tangential, approach, normal_radial, normal_tangential, position, rows)
-
-
-@inlined
-def add_response(free, response):
-    """Add to a displacement the `response` to forces as it was stored."""
-    return Displacement(free.radial + load(response, 0), free.tangential + load(response, LANES))
-
-
-@inlined
-def store_response(response, free, moved):
-    """Store by how much a displacement is further than without forces."""
-    store(response, 0, moved.radial - free.radial)
-    store(response, LANES, moved.tangential - free.tangential)
 
 
 @inlined
@@ -150,7 +145,7 @@ def _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb):
     )
     store(state.force, 0, by_radial)
     store(state.force, LANES, by_tangential)
-    return displaced(modal, modal.compliance, state.force, free)
+    return displaced(modal.compliance, state.force, free)
 
 
 @inlined
@@ -162,5 +157,5 @@ def _by_sweeps(modal, stator, tip, travel, state, u):
     if not converged:
         add_to_number(state.ledger, UNCONVERGED * LANES, 1.0)
     moved = load_tip(u)
-    store(u, 2 * LANES, normal_approach(tip, moved.radial, moved.tangential))
+    store(u, APPROACH, normal_approach(tip, moved.radial, moved.tangential))
     return moved

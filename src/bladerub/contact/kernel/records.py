@@ -10,6 +10,7 @@ import numpy as np
 
 from bladerub.contact import law
 from bladerub.contact.energy import N_ENTRIES
+from bladerub.numerics.lanes import COORDINATES, lanes_for
 from bladerub.numerics.memory import aligned
 from bladerub.numerics.vectors import LANES
 
@@ -63,8 +64,8 @@ class State(NamedTuple):
 
     # (3, n): Modal coordinates now, one and two steps before, padded with zeros to whole vectors
     q: np.ndarray
-    # (3, 32): Radial and tangential displacement of the tip at the same times, the approach of its nodes
-    # (m), and a further coordinate of each
+    # (3, 32): Radial and tangential displacement of the tip at the same times, a further coordinate of its
+    # nodes, and their approach (m)
     u: np.ndarray
     # (2, 24): Contact forces on the blade now and one step before, radial and tangential (N), and along the
     # further coordinates
@@ -77,8 +78,7 @@ class State(NamedTuple):
     # (24,): Coordinates of the tip by the forces of the last step in that step: where the search for forces
     # begins
     response: np.ndarray
-    # (24,): Sliding of the tip without the forces of this step: radial and tangential, m, and angle of
-    # rotation
+    # (32,): Sliding of the tip without the forces of this step as in `u`, but for the angle of rotation
     free_sliding: np.ndarray
     wear: np.ndarray  # (N, 8): Permanent shortening of the elements, in the rows of `Stator`, m
     # Where the law has a layer, which changes between passages (`bladerub.contact.laws`), else without rows:
@@ -99,7 +99,7 @@ def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:
     Lanes without a node move as the last node does, and never touch: they hold up nothing.
     """
     groups = rows.reshape(-1, n_nodes, *rows.shape[1:])
-    node = np.minimum(np.arange(LANES), n_nodes - 1)
+    node = np.minimum(np.arange(lanes_for(n_nodes)), n_nodes - 1)
     return groups.take(node, axis=1).reshape(-1, *rows.shape[1:])
 
 
@@ -111,30 +111,30 @@ def at_rest(n_modes: int, n_elements: int, kept: int = 0) -> State:
     return aligned(state)
 
 
-def shapes(n: int, n_elements: int, layered: int = 0, kept: int = 0, moves: bool = False) -> dict:
+def shapes(n: int, n_elements: int, layered: int = 0, kept: int = 0) -> dict:
     """Shape of each array that the loop reads by address, by its field.
 
     `n` is the number of modes, whole vectors, `layered` that of the rows of a layer, `kept` that of the
-    numbers that it keeps of an element, `moves` whether there is a further motion.
+    numbers that it keeps of an element.
     """
-    lanes, tip = (LANES,), (3 if moves else 2) * LANES
+    lanes, tip = (LANES,), COORDINATES * LANES
     of_modes, of_elements = (n,), (n_elements, LANES)
     return {
         **dict.fromkeys(("now", "before", "loss", "gain"), of_modes),
         **dict.fromkeys(("compliance", "mobility"), (tip, tip)),
         **dict.fromkeys(("stopping", "start", "per_metre", "radius", "lever", "self_compliance"), lanes),
-        "tip": (n // LANES, 2 * LANES, LANES),
-        "further": (n // LANES, LANES, LANES),
+        "tip": (n // LANES, tip, LANES),
         "forms": (n // LANES, N_FORMS, LANES),
         "initial_gap": of_elements,
         "minimum_gap": (n_elements,),
         "law": (len(law.Element._fields), LANES),
-        "further_compliance": lanes if moves else (0,),
+        "further_compliance": lanes if COORDINATES > 2 else (0,),
         "q": (3, n),
         "u": (3, 4 * LANES),
         "force": (2, 3 * LANES),
         **dict.fromkeys(("normal_force", "moment", "tangential_factor"), (2, LANES)),
-        **dict.fromkeys(("response", "free_sliding"), (3 * LANES,)),
+        "response": (3 * LANES,),
+        "free_sliding": (4 * LANES,),
         "wear": of_elements,
         "strength": (layered, LANES),
         "taken": (layered, 2 * LANES),
@@ -157,7 +157,5 @@ def check(record: NamedTuple, shapes: dict) -> None:
             if part.dtype != float or part.shape != shape or not part.flags.c_contiguous:
                 requirement = f"must be contiguous doubles {shape}"
                 raise ValueError(f"{field}: {part.dtype} {part.shape}, strides {part.strides}; {requirement}")
-        if part is None:
-            continue
         if not np.isfinite(part).all() and (name not in _MAY_BE_INFINITE or np.isnan(part).any()):
             raise ValueError(f"{field}: is no finite number everywhere; check blade, law and config")

@@ -6,23 +6,23 @@ modes, nodes and elements. It runs in Python, and compiled by numba.
 """
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 
 import numba
 import numpy as np
 
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.newton import MAX_ITERATIONS, TOLERANCE
+from bladerub.contact.kernel.records import by_lane
 from bladerub.contact.laws import module_of
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.spec import ElementLaw
-from bladerub.contact.start import by_lane_of
 from bladerub.contact.tip import coverage, relief
 
 
 def arguments(law: ElementLaw, rule: Recurrence, simulation: Simulation) -> tuple:
     """Take from a run what `integrate` needs, copying what it changes."""
-    lanes = by_lane_of(rule.n_nodes)
+    lanes = partial(by_lane, n_nodes=rule.n_nodes)
     to_tip, compliance = lanes(rule.tip), lanes(np.transpose(lanes(rule.compliance)))
     modes = rule.now, rule.before, to_tip * rule.gain, to_tip, compliance
     wear, q = simulation.state.wear.copy(), simulation.state.q[:, : rule.omega.size].copy()

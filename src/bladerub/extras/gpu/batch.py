@@ -90,7 +90,7 @@ def variant_of(spec: RunSpec, simulation: Simulation) -> Variant:
     """Return the variant of the loop that a run needs."""
     return Variant(
         vectors=math.ceil(simulation.modal.n / WARP),
-        turns=simulation.modal.further is not None,
+        turns=simulation.modal.tip.shape[1] > 2 * LANES,
         rows=math.ceil((2 * spec.tip.half_width + 3) / 4),
         law=replace(spec.coating.element_law, parameters=()),
         n_elements=spec.coating.n_elements,
@@ -255,13 +255,12 @@ def _modal_record(modal: Modal, flight: FreeFlight, vectors: int, turns: bool) -
         return padded(blocks.swapaxes(0, 1).reshape(blocks.shape[1], -1))
 
     coefficients = padded(np.array([modal.now - modal.before - 1.0, modal.before, modal.loss, modal.gain]))
-    tip = flat(modal.tip).reshape(2 * LANES, vectors, WARP)
+    tip = flat(modal.tip).reshape(-1, vectors, WARP)
     slots = [tip[row ^ s, :, lane].T for s in range(2 * LANES)]  # slot s of a lane, see `project`
     width = 3 * LANES if turns else 2 * LANES
     if turns:
-        tilt = flat(modal.further).reshape(LANES, vectors, WARP)
-        slots += [tilt[node ^ s, :, lane].T for s in range(LANES)]
-    compliance = modal.compliance.reshape(width, width)
+        slots += [tip[2 * LANES + (node ^ s), :, lane].T for s in range(LANES)]
+    compliance = modal.compliance
     response = [compliance[width // 2 * (group & 1) + k, row] for k in range(width // 2)]
     if turns:
         response += [compliance[width // 4 * group + k, 2 * LANES + node] for k in range(width // 4)]

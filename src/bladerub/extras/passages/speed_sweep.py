@@ -166,8 +166,8 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     state.u[2] = old_state.u[0] + 2 * back * (old_state.u[1] - old_state.u[0])
     radius = new.simulation.tip.radius
     for row in state.u:
-        radial, tangential, *_ = row.reshape(4, -1)
-        row.reshape(4, -1)[2] = np.hypot(radius + radial, tangential) - radius
+        radial, tangential, _, approach = row.reshape(4, -1)
+        approach[:] = np.hypot(radius + radial, tangential) - radius
     return float(work)
 
 

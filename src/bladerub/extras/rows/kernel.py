@@ -12,11 +12,10 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from bladerub.contact.kernel.loop import Progress, Simulation, integrate
-from bladerub.contact.kernel.modal import move_tip
+from bladerub.contact.kernel.loop import Progress, Records, Simulation, integrate
 from bladerub.contact.sources import solver_digest
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
-from bladerub.numerics.memory import address_of, place_at, read, write
+from bladerub.numerics.memory import WIDTH, add_to_number, address_of, place_at, read, write
 from bladerub.numerics.vectors import LANES
 
 
@@ -112,7 +111,7 @@ def rows_of(records: Sequence[NamedTuple]) -> np.ndarray:
         for column, part in enumerate(record):
             if isinstance(part, float):
                 row[column : column + 1].view(float)[0] = part
-            elif part is not None:
+            else:
                 row[column] = part
     return rows
 
@@ -151,25 +150,20 @@ def _integrate_row(
         for b in range(n_blades):
             if element < begins[b]:
                 continue
-            modal, flight = record_at(kinds.modal, _row(modals, b)), record_at(kinds.flight, _row(flights, b))
-            stator, tip = record_at(kinds.stator, _row(stators, b)), record_at(kinds.tip, _row(tips, b))
-            state = record_at(kinds.state, _row(states, b))
-            row = (over[b] + element) % stator.n_elements
+            records = Records(
+                record_at(kinds.modal, _row(modals, b)),
+                record_at(kinds.flight, _row(flights, b)),
+                record_at(kinds.stator, _row(stators, b)),
+                record_at(kinds.tip, _row(tips, b)),
+                record_at(kinds.state, _row(states, b)),
+            )
+            n_around = records.stator.n_elements
+            row = (over[b] + element) % n_around
             if n_blades == 1 and not is_coupled:  # adds up what is summed as a single run does
-                together = min(n_elements - element, stator.n_elements - row)
+                together = min(n_elements - element, n_around - row)
             mean = displacement.ctypes.data + 8 * (n_elements * b + element)
             is_flying[b], reach[b], n_steps, n_flights, n_contact, lowest, highest = integrate(
-                modal,
-                flight,
-                stator,
-                tip,
-                state,
-                steps_per_element,
-                row,
-                row + together,
-                is_flying[b],
-                reach[b],
-                mean,
+                records, steps_per_element, row, row + together, is_flying[b], reach[b], mean
             )
             counts[b, 0] += n_steps
             counts[b, 1] += n_flights
@@ -213,4 +207,6 @@ def _couple(coupling, kinds, modals, states, work, begins, element):
             write(state.q, modal.n + k, shifted)
             work[b] += coupling.kinetic[k, b] * ((present - shifted) ** 2 - (present - before) ** 2)
             work[b] += coupling.elastic[k, b] * present * change
-            move_tip(modal, k, change, tip_before)
+            of_mode = address_of(modal.tip, WIDTH * (k - k % LANES) + k % LANES)
+            for row in range(WIDTH):
+                add_to_number(tip_before, row, read(of_mode, LANES * row) * change)

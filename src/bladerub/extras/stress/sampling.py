@@ -91,7 +91,7 @@ class _Sampled:
 
 def _advance(simulation, ends, displacement, rows, forces):
     address, per_element = displacement.ctypes.data, simulation.steps_per_element
-    n_instants, *progress = _integrate(*simulation.records, per_element, ends, address, rows, forces)
+    n_instants, *progress = _integrate(simulation.records, per_element, ends, address, rows, forces)
     return n_instants, Progress(*progress)
 
 
@@ -111,7 +111,7 @@ def _advance_by_parts(simulation, ends, displacement, rows, forces):
 
 
 @njit_on_disk(solver_digest(), nogil=True)
-def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displacement, rows, forces):
+def _integrate(records, steps_per_element, ends, displacement, rows, forces):
     n_steps = n_flights = n_contact = 0
     low, high = np.inf, -np.inf
     in_flight, bound = n_steps > 0, 0.0  # no constant: the loop would be compiled once more, for that one
@@ -120,16 +120,16 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
         first, last = ends[part], ends[part + 1]
         means = address_of(displacement, first)
         in_flight, bound, steps, flights, contacts, lowest, highest = loop.integrate(
-            modal, flight, stator, tip, state, steps_per_element, first, last, in_flight, bound, means
+            records, steps_per_element, first, last, in_flight, bound, means
         )
         n_steps, n_flights, n_contact = n_steps + steps, n_flights + flights, n_contact + contacts
         low, high = min(low, lowest), max(high, highest)
         if steps < (last - first) * steps_per_element:
             return part, n_steps, n_flights, n_contact, low, high
         for k in range(n):
-            rows[part, k] = _normal(read(state.q, k))
+            rows[part, k] = _normal(read(records.state.q, k))
         for k, index in enumerate(forces):
-            rows[part, n + k] = _normal(read(state.force, index))
+            rows[part, n + k] = _normal(read(records.state.force, index))
     return len(rows), n_steps, n_flights, n_contact, low, high
 
 

@@ -1,7 +1,8 @@
 """The functions of the time loop where the profile of the tip turns with the blade.
 
-Its tilt is a second unknown of each node, and the couple of the elements a second force. Each function takes
-the place of the one that its decorator names (`bladerub.contact.laws`).
+Its tilt (m per element) is the further coordinate of each node, and the couple of the elements (N elements)
+the force along it. Each function takes the place of the one that its decorator names
+(`bladerub.contact.laws`).
 """
 
 import math
@@ -13,44 +14,11 @@ import numpy as np
 from bladerub.contact import energy, law
 from bladerub.contact.gap import is_above
 from bladerub.contact.kernel import accounting, elements, gauss_seidel, newton
-from bladerub.contact.kernel import modal as modes
-from bladerub.contact.kernel.modal import ROWS
+from bladerub.contact.kernel.modal import FURTHER
 from bladerub.contact.tip import coverage, edge, highest
 from bladerub.numerics.machine_code import inlined
-from bladerub.numerics.memory import (
-    add_lane_products,
-    add_products,
-    add_to,
-    add_to_number,
-    address_of,
-    broadcast_each,
-    broadcast_lanes,
-    load,
-    load_fields,
-    no_lane_sums,
-    no_sums,
-    read,
-    read_fields,
-    store,
-    sum_of_lane_products,
-    sum_of_products,
-    write,
-)
-from bladerub.numerics.vectors import (
-    LANES,
-    absolute,
-    all_lanes,
-    broadcast,
-    halves,
-    lane_sums,
-    minimum,
-)
-
-TILT, COUPLE = 3 * LANES, 2 * LANES
-"""Where in `State.u` the tilt is (m per element), and in `State.force` the couples (N elements)."""
-WIDTH = ROWS + LANES
-"""Coordinates of the tip: those of its nodes, then the tilt of each profile."""
-
+from bladerub.numerics.memory import add_to, address_of, load, load_fields, read_fields, store, write
+from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, minimum
 
 COUNTERPARTS: dict[Callable, Callable] = {}
 """The functions below, each by that in whose place it is."""
@@ -64,14 +32,6 @@ def in_place_of(function: Callable) -> Callable[[Callable], Callable]:
         return counterpart
 
     return decorate
-
-
-class Displacement(NamedTuple):
-    """Of the tip; vectors."""
-
-    radial: np.ndarray  # m
-    tangential: np.ndarray
-    tilt: np.ndarray  # m per element
 
 
 class Pose(NamedTuple):
@@ -93,107 +53,13 @@ class Linearisation(NamedTuple):
     second_moment: np.ndarray  # Couple per tilt
 
 
-# ---- from the modes to the tip, and back (`bladerub.contact.kernel.modal`)
-
-
-@in_place_of(modes.no_tip_displacement)
-def no_tip_displacement():
-    """Give sums for the nodes and for the tilt."""
-    return no_sums(), no_lane_sums()
-
-
-@in_place_of(modes.add_tip_displacement)
-def add_tip_displacement(modal, k, x, sums):
-    """Add what the modes move and tilt."""
-    of_nodes, of_tilt = sums
-    of_nodes = add_products(of_nodes, address_of(modal.tip, ROWS * k), x)
-    return of_nodes, add_lane_products(of_tilt, address_of(modal.further, LANES * k), x)
-
-
-@in_place_of(modes.tip_displacement)
-def tip_displacement(sums):
-    """Displacement and tilt from the sums."""
-    of_nodes, of_tilt = sums
-    radial, tangential = halves(of_nodes)
-    return Displacement(lane_sums(radial), lane_sums(tangential), lane_sums(of_tilt))
-
-
-@in_place_of(modes.spread_forces)
-def spread_forces(force):
-    """Each force, and each couple, in all lanes of a vector."""
-    return broadcast_each(force), broadcast_lanes(address_of(force, COUPLE))
-
-
-@in_place_of(modes.modal_force)
-def modal_force(modal, k, forces):
-    """Modal force of forces and couples."""
-    of_nodes, couples = forces
-    by_forces = sum_of_products(address_of(modal.tip, ROWS * k), of_nodes)
-    return by_forces + sum_of_lane_products(address_of(modal.further, LANES * k), couples)
-
-
-@in_place_of(modes.displacement_of_nodes)
-def displacement_of_nodes(radial, tangential):
-    """Displacement without a tilt."""
-    return Displacement(radial, tangential, broadcast(0.0))
-
-
-@in_place_of(modes.store_tip)
-def store_tip(u, displacement, approach):
-    """Store the tilt as well."""
-    store(u, 0, displacement.radial)
-    store(u, LANES, displacement.tangential)
-    store(u, 2 * LANES, approach)
-    store(u, TILT, displacement.tilt)
-
-
-@in_place_of(modes.load_tip)
-def load_tip(u):
-    """Load the tilt as well."""
-    return Displacement(load(u, 0), load(u, LANES), load(u, TILT))
-
-
-@in_place_of(modes.move_tip)
-def move_tip(modal, k, change, u):
-    """Change the tilt as well."""
-    block, lane = k // LANES, k % LANES
-    for row in range(ROWS):
-        by = read(modal.tip, LANES * (ROWS * block + row) + lane)
-        add_to_number(u, row, by * change)
-    for row in range(LANES):
-        by = read(modal.further, LANES * (LANES * block + row) + lane)
-        add_to_number(u, TILT + row, by * change)
-
-
-@in_place_of(modes.displaced)
-def displaced(modal, response, force, free):
-    """Add what forces and couples cause."""
-    radial, tangential, tilt = free
-    more_radial = more_tangential = more_tilt = broadcast(0.0)  # two sums at the same time
-    for i in range(0, WIDTH, 2):
-        by, by_next = read(force, i), read(force, i + 1)
-        radial = radial + load(response, WIDTH * i) * by
-        tangential = tangential + load(response, WIDTH * i + LANES) * by
-        more_radial = more_radial + load(response, WIDTH * (i + 1)) * by_next
-        more_tangential = more_tangential + load(response, WIDTH * (i + 1) + LANES) * by_next
-        tilt = tilt + load(response, WIDTH * i + ROWS) * by
-        more_tilt = more_tilt + load(response, WIDTH * (i + 1) + ROWS) * by_next
-    return Displacement(radial + more_radial, tangential + more_tangential, tilt + more_tilt)
-
-
 # ---- the elements under the profile (`bladerub.contact.kernel.elements`)
 
 
 @in_place_of(elements.pose_of)
 def pose_of(approach, displacement):
     """Take the tilt of the displacement."""
-    return Pose(approach, displacement.tilt)
-
-
-@in_place_of(elements.load_pose)
-def load_pose(u):
-    """Load the tilt as well."""
-    return Pose(load(u, 2 * LANES), load(u, TILT))
+    return Pose(approach, displacement.further)
 
 
 @in_place_of(elements.approach_at)
@@ -215,7 +81,7 @@ def is_clear(tip, radial, tangential, approach, u, minimum_gap):
     """Look at the highest point of each profile, where the nodes are clear."""
     clear = is_above(tip, radial, tangential, approach, minimum_gap)
     if clear:  # most steps near the casing end before
-        clear = all_lanes(approach + highest(tip, absolute(load(u, TILT))) <= minimum_gap)
+        clear = all_lanes(approach + highest(tip, absolute(load(u, FURTHER))) <= minimum_gap)
     return clear
 
 
@@ -249,24 +115,6 @@ def linearise(stator, tip, state, position, rows, pose):
 # ---- the search for forces (`bladerub.contact.kernel.newton`)
 
 
-@in_place_of(newton.add_response)
-def add_response(free, response):
-    """Add to the tilt as well."""
-    return Displacement(
-        free.radial + load(response, 0),
-        free.tangential + load(response, LANES),
-        free.tilt + load(response, 2 * LANES),
-    )
-
-
-@in_place_of(newton.store_response)
-def store_response(response, free, moved):
-    """Store that of the tilt as well."""
-    store(response, 0, moved.radial - free.radial)
-    store(response, LANES, moved.tangential - free.tangential)
-    store(response, 2 * LANES, moved.tilt - free.tilt)
-
-
 @in_place_of(newton.distance)
 def distance(tip, pose, other):
     """Add what the edge of the profile is apart by the tilt."""
@@ -288,37 +136,11 @@ def answer(stator, state, linear, pose):
     """Put the couple of the elements on the blade as well."""
     closer, turned = pose.approach - linear.pose.approach, pose.tilt - linear.pose.tilt
     couple = linear.couple + linear.first_moment * closer + linear.second_moment * turned
-    store(state.force, COUPLE, stator.normal_factor * couple)
+    store(state.force, FURTHER, stator.normal_factor * couple)
     return linear.force + linear.stiffness * closer + linear.first_moment * turned
 
 
 # ---- the search node by node (`bladerub.contact.kernel.gauss_seidel`)
-
-
-@in_place_of(gauss_seidel.width)
-def width():
-    """Count the tilts as well."""
-    return WIDTH
-
-
-@in_place_of(gauss_seidel.further_of)
-def further_of(u, j):
-    """Take the tilt."""
-    return read(u, TILT + j)
-
-
-@in_place_of(gauss_seidel.further_change)
-def further_change(tip, u, j, before):
-    """Look at the edge of the profile."""
-    return edge(tip) * abs(read(u, TILT + j) - before)
-
-
-@in_place_of(gauss_seidel.add_displacement)
-def add_displacement(modal, u, row, by):
-    """Add to the tilts as well."""
-    for i in range(0, ROWS, LANES):
-        store(u, i, load(u, i) + load(modal.compliance, row + i) * by)
-    store(u, TILT, load(u, TILT) + load(modal.compliance, row + COUPLE) * by)
 
 
 @in_place_of(gauss_seidel.resistance)
@@ -336,23 +158,19 @@ def resistance(stator, tip, state, j, position, approach, tilt, forces):
         force += share * force_here
         stiffness += share * slope
         couple += share * offset * force_here
-    write(forces, COUPLE + j, stator.normal_factor * couple)
+    write(forces, FURTHER + j, stator.normal_factor * couple)
     return force, stiffness
 
 
 # ---- the ledger (`bladerub.contact.kernel.accounting`)
 
 
-@in_place_of(accounting.add_work)
-def add_work(stator, tip, angle, state, u_after, u, u_before):
-    """Add the work of the couples as well."""
-    more_radial, more_tangential = accounting.add_work_of_forces(state, u_after, u_before)
-    more_tilt = 0.5 * (load(u_after, TILT) - load(u_before, TILT))
-    by_couple = load(state.force, 3 * LANES + COUPLE) * more_tilt
+@in_place_of(accounting.add_further_work)
+def add_further_work(stator, state, u_after, u_before):
+    """Add the work of the couples."""
+    more_tilt = 0.5 * (load(u_after, FURTHER) - load(u_before, FURTHER))
+    by_couple = load(state.force, 3 * LANES + FURTHER) * more_tilt
     add_to(state.ledger, energy.COUPLE * LANES, by_couple)
-    if stator.tangential_factor != 0.0:
-        # as `add_sliding`: the rest of what a turn takes from the tip
+    if stator.tangential_factor != 0.0:  # the rest of what a turn takes from the tip
         ratio = (1.0 + stator.normal_factor) / stator.normal_factor
         add_to(state.ledger, energy.SLIDING * LANES, 0.0 - ratio * by_couple)
-        radial, tangential = load(u, 0), load(u, LANES)
-        accounting.add_sliding(stator, tip, angle, state, radial, tangential, more_radial, more_tangential)

@@ -95,12 +95,12 @@ class _Variant:
     @contextmanager
     def _named(self) -> Iterator[None]:
         """Let modules that are imported in this context have these vectors, and machine code by this name."""
-        usual = length.LANES, length.INSTANCE
-        length.LANES, length.INSTANCE = self.lanes, self.name
+        usual = length.LANES, length.COORDINATES, length.INSTANCE
+        length.LANES, length.COORDINATES, length.INSTANCE = self.lanes, 3 if self.motion else 2, self.name
         try:
             yield
         finally:
-            length.LANES, length.INSTANCE = usual
+            length.LANES, length.COORDINATES, length.INSTANCE = usual
 
 
 _variant = cache(_Variant)
