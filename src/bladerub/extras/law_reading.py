@@ -9,6 +9,7 @@ by it without running the law. The time loop is compiled with the law in it
 import ast
 import hashlib
 import math
+import symtable
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -112,15 +113,23 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
     Raises `ValueError` if it is no Python, lacks a part of `CONTRACT` or its ``PARAMETERS`` are not as they
     must be.
     """
+    try:
+        statements = ast.parse(source).body
+        symbols = symtable.symtable(source, "<law>", "exec").get_symbols()
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise ValueError(f"is no Python ({error or 'nested too deeply'})") from error
     parameters: Mapping[str, Parameter] = {}
-    for node in _statements(source):
-        if isinstance(node, ast.Assign | ast.AnnAssign) and "PARAMETERS" in _assigned(node):
+    for node in statements:
+        if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
+            continue
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+        if "PARAMETERS" in map(ast.unparse, targets):
             try:
                 parameters = _PARAMETERS.validate_python(ast.literal_eval(node.value))
             except (TypeError, ValueError, RecursionError, MemoryError) as error:
                 requirement = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
                 raise ValueError(f"PARAMETERS on line {node.lineno}: {requirement}") from error
-    names = _names_in(source)
+    names = {symbol.get_name() for symbol in symbols if symbol.is_assigned()}
     if source and (missing := [name for name in CONTRACT if name not in names]):
         raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
     if "strength" in names and "Layer" not in names:
@@ -160,29 +169,3 @@ def _source_in_package(name: str) -> str:
     if place is None:
         raise ValueError(f"name = {name}: must be one of {', '.join(NAMES)}")
     return PACKAGE.joinpath(*place.split(".")).with_suffix(".py").read_text(encoding="utf-8")
-
-
-def _statements(source: str) -> list[ast.stmt]:
-    try:
-        return ast.parse(source).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise ValueError(f"is no Python ({error or 'nested too deeply'})") from error
-
-
-def _names_in(source: str) -> set[str]:
-    """Names that a module defines or imports at its top."""
-    names = set()
-    for node in _statements(source):
-        if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            names.add(node.name)
-        elif isinstance(node, ast.Import | ast.ImportFrom):
-            names |= {alias.asname or alias.name for alias in node.names}
-        elif isinstance(node, ast.Assign | ast.AnnAssign):
-            names |= _assigned(node)
-    return names
-
-
-def _assigned(node: ast.Assign | ast.AnnAssign) -> set[str]:
-    """Names that a statement gives a value to; an annotation alone gives none."""
-    targets = node.targets if isinstance(node, ast.Assign) else [node.target] if node.value else []
-    return {target.id for target in targets if isinstance(target, ast.Name)}

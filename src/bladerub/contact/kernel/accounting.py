@@ -10,7 +10,7 @@ from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, max
 
 
 @inlined
-def update_coating(modal, stator, tip, travel, per_step, state, u, u_before):
+def update_coating(stator, tip, travel, per_step, state, u, u_before):
     """Wear the coating by the forces of this step, and enter energies and sliding in the ledger."""
     approach, normal_force = load(u, APPROACH), load(state.normal_force, 0)
     factor = load(state.tangential_factor, 0)
@@ -22,10 +22,11 @@ def update_coating(modal, stator, tip, travel, per_step, state, u, u_before):
         shape = elements.rigid_surface(stator, position_before) - elements.rigid_surface(stator, position)
         supplied = 0.5 * (normal_force + load(state.normal_force, LANES)) * shape
     else:
-        placement = elements.Placement(position, elements.pose_of(approach, load_tip(u)))
+        pose = elements.pose_of(approach, load_tip(u))
         pose_before = elements.pose_of(load(u_before, APPROACH), load_tip(u_before))
-        before = elements.Placement(position_before, pose_before)
-        stored, loss, supplied, worn = elements.update_wear(modal, stator, tip, state, placement, before)
+        stored, loss, supplied, worn = elements.update_wear(
+            stator, tip, state, position, position_before, pose, pose_before
+        )
         add_to(state.ledger, energy.WORN * LANES, worn)
     store(state.moment, 0, (0.0 - factor) * normal_force * (load(tip.lever, 0) + approach))
     entry = state.ledger

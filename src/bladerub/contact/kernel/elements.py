@@ -29,13 +29,6 @@ NO_ADVANCE = 1e-9
 """Least distance that the tip counts as passing in a step, in elements: it divides."""
 
 
-class Placement(NamedTuple):
-    """Where the profiles are on the casing."""
-
-    position: np.ndarray  # Of the nodes, a vector, in rows
-    pose: np.ndarray
-
-
 class Linearisation(NamedTuple):
     """What the elements under each node answer near a pose; vectors."""
 
@@ -147,7 +140,7 @@ def linearise(stator, tip, state, position, rows, pose):
 
 
 @inlined
-def update_wear(modal, stator, tip, state, placement, before):
+def update_wear(stator, tip, state, position, position_before, pose, pose_before):
     """Leave the elements as the tip presses them at the end of a step, and account for it.
 
     An element partly under the tip counts as elements of which a share is under it: as the edge of the
@@ -156,11 +149,10 @@ def update_wear(modal, stator, tip, state, placement, before):
     share are integrated exactly along that path. Of the energy that the elements take, the rotation supplies
     what the blade does not by coming closer: its way times the mean of share times force.
 
-    `placement` and `before` are `Placement`, less than N rows from each other. Returns the elastic energy in
-    the elements, the energy taken by wear and the work of the rotation on the elements in this step, J, and
-    what the elements wear in it, m.
+    Positions (rows) and poses are those at the end of the step and before, less than N rows from each other.
+    Returns the elastic energy in the elements, the energy taken by wear and the work of the rotation on the
+    elements in this step, J, and what the elements wear in it, m.
     """
-    position, position_before = placement.position, before.position
     element = load_fields(law.Element, stator.law)
     stored, dissipated, supplied, worn_off = broadcast(0.0), broadcast(0.0), broadcast(0.0), broadcast(0.0)
     first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
@@ -175,8 +167,8 @@ def update_wear(modal, stator, tip, state, placement, before):
         share, share_before = coverage(tip, offset), coverage(tip, offset + advance)
         lowering = slope * offset + constant  # of the profile over this element, in the step
         worn = load(state.wear, entry)
-        closer, lowering = motion_at(placement.pose, before.pose, offset, advance, lowering)
-        approach = approach_at(placement.pose, offset)
+        closer, lowering = motion_at(pose, pose_before, offset, advance, lowering)
+        approach = approach_at(pose, offset)
         depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
         deeper = closer + lowering
         force, increment = law.return_mapping(element, depth, worn)

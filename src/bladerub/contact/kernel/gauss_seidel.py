@@ -58,7 +58,7 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             else:
                 place = read(position, j)
                 node_force, node_converged = _force_on(
-                    modal, stator, tip, state, j, place, free_approach, further, compliance, guess, turned
+                    stator, tip, state, j, place, free_approach, further, compliance, guess, turned
                 )
                 converged = converged and node_converged
             if node_force == 0.0 and guess == 0.0:
@@ -92,7 +92,7 @@ def _self_compliance(modal, stator, state, j):
 
 
 @within
-def _force_on(modal, stator, tip, state, j, position, free_approach, further, compliance, guess, forces):
+def _force_on(stator, tip, state, j, position, free_approach, further, compliance, guess, forces):
     """Find the force N of the coating on node `j` at a given further coordinate.
 
     The node retreats by `compliance` per unit of it. Solves ``a + compliance N(a) = free_approach`` for the

@@ -180,7 +180,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
         copy(address_of(state.force, 3 * LANES), state.force, 3 * LANES)
         return False, False
     if touching or step.touched:
-        update_coating(modal, stator, tip, step.travel, step.per_step, state, rows.u_next, rows.u)
+        update_coating(stator, tip, step.travel, step.per_step, state, rows.u_next, rows.u)
     if touching and modal.corrects:
         _store_displacement(modal, tip, correct(modal, state.force, rows.q_next), rows.u_next)
     if step.touched:

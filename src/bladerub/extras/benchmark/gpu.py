@@ -101,12 +101,9 @@ def agreement(pairs: list[tuple[Measures, Measures]]) -> dict[str, float]:
     """Compare runs on the GPU with the same here, see `compare`."""
     errors = [float(np.nanmax(np.abs(on_gpu.peak / on_cpu.peak - 1))) for on_gpu, on_cpu in pairs]
     median, p95, p99, largest = np.quantile(errors, [0.5, 0.95, 0.99, 1.0]).tolist()
+    names = {"same_status": "status", "same_steps": "n_steps", "same_contact_steps": "n_contact_steps"}
     return {
-        "same_status": sum(on_gpu.status == on_cpu.status for on_gpu, on_cpu in pairs),
-        "same_steps": sum(on_gpu.n_steps == on_cpu.n_steps for on_gpu, on_cpu in pairs),
-        "same_contact_steps": sum(
-            on_gpu.n_contact_steps == on_cpu.n_contact_steps for on_gpu, on_cpu in pairs
-        ),
+        **{key: sum(getattr(a, name) == getattr(b, name) for a, b in pairs) for key, name in names.items()},
         "peak_error_median": median,
         "peak_error_p95": p95,
         "peak_error_p99": p99,

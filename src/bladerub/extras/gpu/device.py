@@ -5,7 +5,7 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -66,11 +66,8 @@ def describe() -> str:
     return f"{properties['name'].decode()}, {properties['multiProcessorCount']} multiprocessors"
 
 
-class _Arrays(NamedTuple):
-    """Of a piece of work, on the GPU."""
-
-    inputs: "list[cupy.ndarray]"
-    outputs: "list[cupy.ndarray]"
+_Arrays = tuple["list[cupy.ndarray]", "list[cupy.ndarray]"]
+"""Inputs and outputs of a piece of work, on the GPU."""
 
 
 def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iterator[Output]:
@@ -110,7 +107,7 @@ def _prepare(works: Mapping[int, Work], arrays: dict[int, _Arrays]) -> Callable[
         inputs = [cupy.asarray(array) for array in work[4:]]  # in the order of ``Batch``
         outputs = [_filled(*description) for description in described(work).values()]
         batches.append(described_to_loop(work, (array.data.ptr for array in (*inputs, *outputs))))
-        arrays[number] = _Arrays(inputs, outputs)
+        arrays[number] = inputs, outputs
     order, work = longest_first([*works.values()]), next(iter(works.values()))
     numbers = cupy.asarray(order), _filled((1,), np.int32, 0), cupy.asarray(np.array(batches))
     kernel = _compiled(work.source, work.shared)

@@ -14,7 +14,6 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import Future
 from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
-from typing import NamedTuple
 
 from bladerub.extras.gpu import ADDRESS, device, emulation
 from bladerub.extras.gpu.batch import Device, Output, Work
@@ -48,9 +47,7 @@ def ask(works: Iterable[Work]) -> Iterator[Output]:
             raise device.NoGpuError(f"{problem}; the same command goes on from what is finished") from error
 
 
-class _Request(NamedTuple):
-    work: Work
-    answer: Future
+_Request = tuple[Work, Future]
 
 
 def serve(listener: Listener, run: Device) -> None:
@@ -64,10 +61,9 @@ def serve(listener: Listener, run: Device) -> None:
 
 def _answer(connection: Connection, requests: "queue.SimpleQueue[_Request]") -> None:
     with connection, contextlib.suppress(OSError, EOFError):  # who asked is gone
-        request = _Request(connection.recv(), Future())
-        requests.put(request)
-        error = request.answer.exception()
-        connection.send(error or request.answer.result())
+        answer = Future()
+        requests.put((connection.recv(), answer))
+        connection.send(answer.exception() or answer.result())
 
 
 def _compute(requests: "queue.SimpleQueue[_Request]", run: Device) -> None:
@@ -76,12 +72,12 @@ def _compute(requests: "queue.SimpleQueue[_Request]", run: Device) -> None:
         while not requests.empty():
             batch.append(requests.get())
         try:
-            for request, output in zip(batch, run(entry.work for entry in batch), strict=True):
-                request.answer.set_result(output)
+            for (_, answer), output in zip(batch, run(work for work, _ in batch), strict=True):
+                answer.set_result(output)
         except Exception as error:  # it is the callers'
-            for request in batch:
-                if not request.answer.done():
-                    request.answer.set_exception(error)
+            for _, answer in batch:
+                if not answer.done():
+                    answer.set_exception(error)
 
 
 def main() -> None:

@@ -16,8 +16,6 @@ from bladerub.contact.law import elastic_force, stored_energy
 from bladerub.contact.spec import Coating
 from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum, where
 
-__all__ = ["elastic_force", "stored_energy"]
-
 PARAMETERS = {
     "break_strain": ("1", 1e-9, 1e9, "elastic strain at which an element breaks off"),
 }
@@ -42,13 +40,9 @@ def element(coating: Coating, area: float | np.ndarray, time_step: float = math.
     plastic = law.element(coating, area)
     strain = dict(coating.element_law.parameters)["break_strain"]
     return Element(
-        plastic.elastic,
-        plastic.hardening,
-        plastic.yield_force,
-        plastic.elastic * strain * coating.thickness,
-        plastic.elastic_compliance,
-        plastic.plastic_compliance,
-        1 / np.maximum(plastic.hardening, _SOFT),
+        **plastic._asdict(),
+        crushing_force=plastic.elastic * strain * coating.thickness,
+        hardening_compliance=1 / np.maximum(plastic.hardening, _SOFT),
     )
 
 

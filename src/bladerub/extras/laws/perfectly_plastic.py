@@ -21,15 +21,6 @@ from bladerub.contact.law import (
 )
 from bladerub.contact.spec import Coating
 
-__all__ = [
-    "dissipated_energy",
-    "elastic_force",
-    "elastic_limit",
-    "return_mapping",
-    "stored_energy",
-    "tangent",
-]
-
 PARAMETERS = {
     "yield_stress": ("Pa", 1e3, 1e12, "stress at which an element yields"),
 }

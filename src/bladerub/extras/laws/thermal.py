@@ -20,19 +20,6 @@ from bladerub.contact.law import (
 from bladerub.contact.spec import Coating
 from bladerub.extras.laws.heating import Layer
 
-__all__ = [
-    "Element",
-    "Layer",
-    "dissipated_energy",
-    "elastic_force",
-    "elastic_limit",
-    "element",
-    "return_mapping",
-    "stored_energy",
-    "strength",
-    "tangent",
-]
-
 PARAMETERS = {
     "heat_capacity": ("J/(m3 K)", 1e3, 1e8, "heat that a volume of the coating takes"),
     "conductivity": ("W/(m K)", 0.0, 1e9, "thermal conductivity of the coating"),

@@ -19,12 +19,9 @@ from bladerub.contact.law import elastic_limit, stored_energy
 from bladerub.contact.spec import Coating
 from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum, where
 
-__all__ = ["elastic_limit", "stored_energy"]
-
 PARAMETERS = {
     "viscosity": ("Pa s", 0.0, 1e9, "stress beyond the elastic limit over the rate of the plastic strain"),
 }
-
 
 _AT_ONCE = 20.0
 """ρ from which on the flow of a step ends within it: what is left is e^−ρ of the overstress."""

@@ -32,18 +32,13 @@ class Coupling(NamedTuple):
     elastic: np.ndarray
 
 
-class Rests(NamedTuple):
-    """When elements that conduct heat are left alone."""
-
-    apart: Sequence[int]  # Elements from each blade to the one behind it
-    at_once: int  # Elements that may pass before those half-way between two blades are seen to
-
-
 class RowSimulation:
     """Blades and the coating that they share, ready to be integrated.
 
-    Blade b is over row ``first[b]`` of the elements at the start, and at rest until ``begins[b]`` elements
-    have passed. `work` (N,) is what the disk has done on each blade, J.
+    Blade b is over row ``first[b]`` of the elements at the start, at rest until ``begins[b]`` elements have
+    passed, and ``apart[b]`` elements ahead of the next one behind it. Up to `at_once` elements pass before
+    those half-way between two blades, if they conduct heat, are seen to. `work` (N,) is what the disk has
+    done on each blade, J.
     """
 
     def __init__(
@@ -52,13 +47,14 @@ class RowSimulation:
         first: Sequence[int],
         begins: Sequence[int],
         coupling: Coupling,
-        rests: Rests,
+        apart: Sequence[int],
+        at_once: int,
     ):
         self.blades, self.coupling = blades, coupling  # whose arrays stay alive here
-        self.first, self.begins, self.rests = np.array(first), np.array(begins), rests
+        self.first, self.begins, self.apart, self.at_once = np.array(first), np.array(begins), apart, at_once
         self.work = np.zeros(len(blades))
         self._kinds = blades[0].records
-        self._rows = tuple(rows_of(kind) for kind in zip(*(blade.records for blade in blades), strict=True))
+        self._rows = Records(*map(rows_of, zip(*(blade.records for blade in blades), strict=True)))
 
     def advance(self, displacement: np.ndarray, first: int) -> tuple[int, list[Progress]]:
         """Integrate the passage of n elements, from the one that is the `first` since the start.
@@ -70,7 +66,7 @@ class RowSimulation:
         (n_blades, n), blade = displacement.shape, self.blades[0]
         counts = np.zeros((n_blades, 3), dtype=np.int64)
         ranges = np.full((n_blades, 2), (np.inf, -np.inf))
-        travel, at_once = 0, self.rests.at_once if blade.layer else n
+        travel, at_once = 0, self.at_once if blade.layer else n
         while travel < n:
             part = np.ascontiguousarray(displacement[:, travel : travel + at_once])
             over = (self.first + first + travel) % blade.stator.n_elements
@@ -79,7 +75,7 @@ class RowSimulation:
                 *(part, counts, ranges, self.coupling, self.work),
             )
             displacement[:, travel : travel + at_once] = part
-            if within or len(self.blades) > 1:  # a single run that ends does not rest, either
+            if blade.layer and (within or n_blades > 1):  # a single run that ends does not rest, either
                 self._rest(first + travel, n_passed)
             travel += n_passed
             if not within:
@@ -91,17 +87,10 @@ class RowSimulation:
 
     def _rest(self, first: int, n_elements: int) -> None:
         """Let the elements half-way to the blades behind be, after `n_elements` more elements."""
-        layer = self.blades[0].layer
-        if layer is None:
-            return
-        for row, apart in zip(self.first + first, self.rests.apart, strict=True):
-            first_row = row - (apart - self.rests.at_once) // 2
-            layer.rest(
-                self.blades[0].state,
-                first_row,
-                first_row + n_elements,
-                apart / self.blades[0].stator.n_elements,
-            )
+        blade = self.blades[0]
+        for row, apart in zip(self.first + first, self.apart, strict=True):
+            row -= (apart - self.at_once) // 2
+            blade.layer.rest(blade.state, row, row + n_elements, apart / blade.stator.n_elements)
 
 
 def rows_of(records: Sequence[NamedTuple]) -> np.ndarray:
@@ -138,25 +127,18 @@ def record_at(context, record, address):
 def _integrate_row(
     kinds, rows, steps_per_element, over, begins, displacement, counts, ranges, coupling, work
 ):
-    modals, flights, stators, tips, states = rows
     n_blades, n_elements = displacement.shape
     is_coupled = coupling.impulse.shape[0] > 0
     is_flying, reach = np.zeros(n_blades, dtype=np.bool_), np.zeros(n_blades)
     element, within = 0, True
     while element < n_elements and within:
         if is_coupled:
-            _couple(coupling, kinds, modals, states, work, begins, element)
+            _couple(coupling, kinds, rows, work, begins, element)
         together = 1
         for b in range(n_blades):
             if element < begins[b]:
                 continue
-            records = Records(
-                record_at(kinds.modal, _row(modals, b)),
-                record_at(kinds.flight, _row(flights, b)),
-                record_at(kinds.stator, _row(stators, b)),
-                record_at(kinds.tip, _row(tips, b)),
-                record_at(kinds.state, _row(states, b)),
-            )
+            records = _records(kinds, rows, b)
             n_around = records.stator.n_elements
             row = (over[b] + element) % n_around
             if n_blades == 1 and not is_coupled:  # adds up what is summed as a single run does
@@ -172,10 +154,22 @@ def _integrate_row(
             ranges[b, 1] = max(ranges[b, 1], highest)
             within = within and n_steps == together * steps_per_element
         if is_coupled:
-            _couple(coupling, kinds, modals, states, work, begins, element)
+            _couple(coupling, kinds, rows, work, begins, element)
             is_flying[:] = False  # what `reach` bounds was the motion without the impulse
         element += together
     return element, within
+
+
+@inlined
+def _records(kinds, rows, b):
+    """Load the records of blade `b`."""
+    return Records(
+        record_at(kinds.modal, _row(rows.modal, b)),
+        record_at(kinds.flight, _row(rows.flight, b)),
+        record_at(kinds.stator, _row(rows.stator, b)),
+        record_at(kinds.tip, _row(rows.tip, b)),
+        record_at(kinds.state, _row(rows.state, b)),
+    )
 
 
 @inlined
@@ -185,7 +179,7 @@ def _row(rows, b):
 
 
 @within
-def _couple(coupling, kinds, modals, states, work, begins, element):
+def _couple(coupling, kinds, rows, work, begins, element):
     """Change the velocities by half an impulse of the disk, and enter its work.
 
     A velocity stands in the coordinates of one step before; so does that of the tip, whose path the work of
@@ -195,12 +189,13 @@ def _couple(coupling, kinds, modals, states, work, begins, element):
     for b in range(n_blades):
         if element < begins[b]:  # it is held
             continue
-        modal, state = record_at(kinds.modal, _row(modals, b)), record_at(kinds.state, _row(states, b))
+        records = _records(kinds, rows, b)
+        modal, state = records.modal, records.state
         tip_before = address_of(state.u, 4 * LANES)
         for k in range(n_modes):
             velocity = 0.0
             for other in range(n_blades):
-                velocity += coupling.impulse[k, b, other] * read(states[other, 0], k)
+                velocity += coupling.impulse[k, b, other] * read(rows.state[other, 0], k)
             present, before = read(state.q, k), read(state.q, modal.n + k)
             change = coupling.backward[k, b] * velocity
             shifted = before + change

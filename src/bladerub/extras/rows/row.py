@@ -15,7 +15,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg
@@ -32,7 +31,7 @@ from bladerub.contact.setup import fixed_steps, set_up_modes
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.start import Seat
 from bladerub.contact.strips import element_area
-from bladerub.extras.rows.kernel import Coupling, Rests, RowSimulation
+from bladerub.extras.rows.kernel import Coupling, RowSimulation
 from bladerub.extras.rows.spec import Row, RowBlade
 from bladerub.numerics.lanes import lanes_for
 
@@ -117,16 +116,11 @@ def simulate_row(
     )
 
 
-class RowSetUp(NamedTuple):
-    """The blades of a row and the loop that integrates them together."""
+def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> "tuple[Modes, list[_Seat], RowSimulation]":
+    """Set up a row: modes of the nominal blade, the blades, and the loop that integrates them together.
 
-    modes: Modes  # of the nominal blade
-    seats: "list[_Seat]"
-    simulation: RowSimulation
-
-
-def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
-    """Set up a row; raises as `simulate_row`."""
+    Raises as `simulate_row`.
+    """
     modes, spec = modes_at(blade, spec.f_omega, spec), fixed_steps(blade, spec)
     seats: list[_Seat] = []
     for row_blade in row.blades:
@@ -137,11 +131,9 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
     lanes, law = lanes_for(blade.n_interface), spec.coating.element_law
     kernel = module_for(lanes, "extras.rows.kernel", law, spec.turns)
     coupling = _coupling(spec, modes, row, seats)
-    rests = Rests(apart, min(spec.coating.n_elements // 2, min(apart) - reach))
-    simulation = kernel.RowSimulation(
-        [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling, rests
-    )
-    return RowSetUp(modes, seats, simulation)
+    at_once = min(spec.coating.n_elements // 2, min(apart) - reach)
+    simulations, first = [seat.simulation for seat in seats], [seat.row for seat in seats]
+    return modes, seats, kernel.RowSimulation(simulations, first, begins, coupling, apart, at_once)
 
 
 def coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray) -> np.ndarray:

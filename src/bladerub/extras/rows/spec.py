@@ -170,9 +170,7 @@ class Row:
         inputs = {"angle_error": angle_error, "length": length, "frequency": frequency, "damping": damping}
         values: dict[str, list[Any]] = {}
         for name, value in inputs.items():
-            array = np.asarray(value, dtype=float)
-            if array.ndim == 0:
-                array = np.full(n_blades, array)
+            array = np.atleast_1d(np.asarray(value, dtype=float))
             if len(array) not in (1, n_blades) or array.ndim > (2 if name == "frequency" else 1):
                 shape = " x ".join(map(str, array.shape))
                 raise ValueError(f"row: {shape} values of {name}; must be 1 or {n_blades}")
