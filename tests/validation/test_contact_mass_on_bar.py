@@ -44,7 +44,7 @@ def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     loop = simulation(rule, contact, gap, per_metre=0.0, limit=1.0)
     state = loop.state
     state.q[:, 0] = (rest + start) / mode
-    state.u[:, [0, 16]] = rest + start  # displacement and height of the first node
+    state.u[:, [0, 24]] = rest + start  # displacement and approach of the first node
     if not rule.corrects:  # the elements are already pressed
         state.normal_force[0, 0] = bar * (rest + start + DEPTH)
         state.force[:, 0] = -state.normal_force[0, 0]
@@ -99,7 +99,7 @@ def test_errors_of_a_bounce_average_out(hardening):
         loop = simulation(rule, contact, gap, hardening, steps=1000, per_metre=0.0, limit=1.0)
         positions = SPEED * H * (phase - np.arange(3))
         loop.state.q[:, 0] = positions / mode
-        loop.state.u[:, [0, 16]] = positions[:, None]
+        loop.state.u[:, [0, 24]] = positions[:, None]
         loop.advance(np.zeros(1))
         after.append((loop.state.q[0, 0] - loop.state.q[1, 0]) * mode / (SPEED * H))
     errors = np.array(after) + np.sqrt(hardening / (1 + hardening))

@@ -19,6 +19,10 @@ class Data(NamedTuple):
     number: float
 
 
+class Total(NamedTuple):
+    total: np.ndarray
+
+
 @pytest.fixture(scope="module")
 def data():
     rng = np.random.default_rng(1)
@@ -78,7 +82,7 @@ def test_totals_of_eight_vectors(data):
         c, d = memory.load(data.a, 16), memory.load(data.a, 24)
         e, f = memory.load(data.a, 32), memory.load(data.a, 40)
         g, h = memory.load(data.a, 48), memory.load(data.a, 56)
-        memory.store(data.out, 0, vectors.lane_sums((a, b, c, d, e, f, g, h)))
+        memory.store_fields(vectors.lane_sums(Total, (a, b, c, d, e, f, g, h)), data.out)
 
     over(addresses(data))
     np.testing.assert_allclose(data.out, data.a.sum(axis=1), rtol=1e-14)

@@ -41,7 +41,7 @@ def parts(blade, spec, change):
 def pressed_in(stator, tip, depth):
     """Displacement that puts node j by `depth` times (1 + j / 10) into the coating, all slightly along it."""
     rows = stator.initial_gap[0] + depth * (1 + np.arange(LANES) / 10)
-    return np.concatenate([rows, np.full(LANES, 0.2 / tip.per_metre), np.zeros(LANES)])
+    return np.concatenate([rows, np.full(LANES, 0.2 / tip.per_metre), np.zeros(2 * LANES)])
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.15])
