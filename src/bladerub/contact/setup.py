@@ -73,16 +73,13 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
     That for profiles that turn is another one, that for a tip with more than eight nodes, and that for
     another law of the elements. Raises `BadInput` if that law cannot be compiled.
     """
-    modes = Modes(np.ones(1), np.zeros(((3 if tip_turns else 2) * n_nodes, 1)), n_nodes)
-    lanes = lanes_for(n_nodes)
-    zeros = np.zeros(lanes)
-    stiffness = np.ones(len(modes.tip) - n_nodes)
-    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(stiffness, -1.0, 0.0))
-    gap, elements = np.ones((8, lanes)), np.ones((len(module_of(law).Element._fields), lanes))
-    turning = zeros if tip_turns else np.empty(0)
-    stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros, False, turning)
-    tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
-    kernel = _kernel(n_nodes, law, tip_turns)
+    kernel, n = _kernel(n_nodes, law, tip_turns), (3 if tip_turns else 2) * n_nodes
+    modes = Modes(np.ones(1), np.zeros((n, 1)), n_nodes)
+    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(np.ones(n - n_nodes), -1.0, 0.0))
+    ones = {name: np.ones(shape) for name, shape in kernel("records").shapes(rule.omega.size, 8).items()}
+    tip = records.Tip(*(ones.get(name, 1.0) for name in records.Tip._fields))
+    arrays = {name: ones[name] for name in records.Stator._fields if name in ones}
+    stator = records.Stator(n_elements=8, is_rigid=False, normal_factor=-1.0, tangential_factor=0.0, **arrays)
     flight = kernel("free_flight").free_flight(rule, 1, 0.0, 0.0)
     state = kernel("records").at_rest(1, 8, _kept_by(module_of(law)))
     modal, simulation = kernel("modal").pack(rule), kernel("loop").Simulation

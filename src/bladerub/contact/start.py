@@ -86,8 +86,8 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     """Describe coating and casing for the time loop, in rows of elements."""
     coating = spec.coating
     normal_factor, tangential_factor = force_direction(coating)
-    compliances = np.split(_self_compliance(rule, coating), [blade.n_interface])
     by_lane = partial(records.by_lane, n_nodes=blade.n_interface)
+    self_compliance, further = map(by_lane, np.split(_self_compliance(rule, coating), [blade.n_interface]))
     area = by_lane(element_area(blade, spec))
     if coating.is_rigid:
         parameters = np.zeros((len(module_of(coating.element_law).Element._fields), area.size))
@@ -104,9 +104,9 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
         is_rigid=coating.is_rigid,
         normal_factor=normal_factor,
         tangential_factor=tangential_factor,
-        self_compliance=by_lane(compliances[0]),
+        self_compliance=self_compliance,
         coulomb=coating.coulomb,
-        further_compliance=by_lane(compliances[1]) if compliances[1].size else compliances[1],
+        further_compliance=further,
     )
     return aligned(stator)
 

@@ -41,9 +41,10 @@ def module_for(lanes: int, name: str, law: str, motion: str) -> ModuleType:
     law cannot be run.
     """
     with _importing:  # threads that begin together
-        return _variant(lanes, law, motion).module(f"bladerub.{name}")
+        return _Variant(lanes, law, motion).module(f"bladerub.{name}")
 
 
+@cache
 class _Variant:
     """The modules for vectors of `lanes`, a law and a motion, each imported when it is first asked for."""
 
@@ -55,11 +56,8 @@ class _Variant:
 
     def module(self, name: str) -> ModuleType:
         """Return a module by its whole name."""
-        if name not in self._modules:
-            self._import(name)
-        return self._modules[name]
-
-    def _import(self, name: str) -> None:
+        if name in self._modules:
+            return self._modules[name]
         for needed in filter(None, (name, self.motion)):
             importlib.import_module(needed)  # with all that it needs: what is imported below is the variant's
         usual = self._loaded(name)
@@ -82,6 +80,7 @@ class _Variant:
         new = {name: module for name, module in modules.items() if name not in self._modules}
         _name(new, self.name)
         self._modules |= new
+        return self._modules[name]
 
     def _loaded(self, name: str) -> dict[str, ModuleType]:
         """Return what is imported of the modules that variants have, and of `name`."""
@@ -101,9 +100,6 @@ class _Variant:
             yield
         finally:
             length.LANES, length.COORDINATES, length.INSTANCE = usual
-
-
-_variant = cache(_Variant)
 
 
 def _take_away(name: str, usual: dict[str, ModuleType]) -> None:
