@@ -4,7 +4,6 @@ Compiled code that takes, slices or passes on arrays counts their references eac
 what it does with them. It therefore gets records of their `addresses`.
 """
 
-import functools
 from typing import NamedTuple
 
 import numpy as np
@@ -142,32 +141,6 @@ def store_fields(context, record, address):
         return context.get_dummy_value()
 
     return types.void(record, types.intp), generate
-
-
-def _by_vector(build):
-    """Decorate what builds a vector of a tuple from those of two tuples alike."""
-
-    @functools.wraps(build)  # its signature, too: the builder is in the place of Numba's context
-    def typed(context, one, other):
-        def generate(context, builder, signature, arguments):
-            pairs = zip(*(cgutils.unpack_tuple(builder, argument) for argument in arguments), strict=True)
-            return context.make_tuple(builder, one, [build(builder, *pair) for pair in pairs])
-
-        return one(one, other), generate
-
-    return intrinsic(typed)
-
-
-@_by_vector
-def add_fields(builder, a, b):
-    """Add two named tuples of vectors."""
-    return builder.fadd(a, b, flags=FUSED)
-
-
-@_by_vector
-def subtract_fields(builder, a, b):
-    """Subtract a named tuple of vectors from another."""
-    return builder.fsub(a, b, flags=FUSED)
 
 
 @intrinsic

@@ -103,7 +103,7 @@ def _built_in(function, typed, *cases):
 
 
 def _binary(python_operator, result, build):
-    """Let `python_operator` work on vectors, or a vector and a number."""
+    """Let `python_operator` work on vectors, a vector and a number, or the vectors of two named tuples."""
 
     def typed(a, b):
         return result(*_typed(a, b)) if vector in (a, b) else None
@@ -111,6 +111,14 @@ def _binary(python_operator, result, build):
     @_built_in(python_operator, typed, (vector, vector), (vector, types.float64), (types.float64, vector))
     def _(context, builder, signature, arguments):
         return build(builder, *_operands(builder, signature.args, arguments))
+
+    def typed_tuples(a, b):
+        return a(a, b) if isinstance(a, types.NamedUniTuple) and a == b and a.dtype == result else None
+
+    @_built_in(python_operator, typed_tuples, (types.NamedUniTuple, types.NamedUniTuple))
+    def _(context, builder, signature, arguments):
+        pairs = zip(*(cgutils.unpack_tuple(builder, argument) for argument in arguments), strict=True)
+        return context.make_tuple(builder, signature.return_type, [build(builder, *pair) for pair in pairs])
 
 
 _binary(operator.add, vector, lambda builder, a, b: builder.fadd(a, b, flags=FUSED))

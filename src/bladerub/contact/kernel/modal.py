@@ -10,7 +10,6 @@ from bladerub.numerics.lanes import COORDINATES
 from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import (
     WIDTH,
-    add_fields,
     add_products,
     address_of,
     aligned,
@@ -182,4 +181,4 @@ def displaced(response, force, free):
     for i in range(0, WIDTH, 2):
         moved = add_products(moved, address_of(response, WIDTH * i), broadcast(read(force, i)))
         more = add_products(more, address_of(response, WIDTH * (i + 1)), broadcast(read(force, i + 1)))
-    return add_fields(moved, more)
+    return moved + more

@@ -17,17 +17,9 @@ from bladerub.contact.gap import closest_position, is_within_limit, normal, norm
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import approach_at, linearise, no_linearisation, pose_of, rows_under
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
-from bladerub.contact.kernel.modal import APPROACH, displaced, load_tip, store_tip
+from bladerub.contact.kernel.modal import APPROACH, Displacement, displaced, load_tip, store_tip
 from bladerub.numerics.machine_code import inlined
-from bladerub.numerics.memory import (
-    add_fields,
-    add_to_number,
-    clear,
-    load,
-    store,
-    store_fields,
-    subtract_fields,
-)
+from bladerub.numerics.memory import add_to_number, clear, load, store, store_fields
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast
 
 TOLERANCE = 1e-11
@@ -41,8 +33,7 @@ MAX_ITERATIONS = 8
 class Geometry(NamedTuple):
     """Where the nodes are on the casing at a displacement of the tip; vectors, and two row numbers."""
 
-    radial: np.ndarray
-    tangential: np.ndarray
+    displacement: Displacement
     approach: np.ndarray
     normal_radial: np.ndarray
     normal_tangential: np.ndarray
@@ -59,7 +50,7 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
     loop. Returns whether the displacement is within the limit.
     """
     free = load_tip(u)  # u₀
-    start = moved = add_fields(free, load_tip(state.response))
+    start = moved = free + load_tip(state.response)
     geometry = _geometry(tip, start, travel)  # eq. (7)
     pose = loaded = pose_of(geometry.approach, start)
     linear = no_linearisation(pose)
@@ -70,15 +61,14 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
             if not all_lanes(distance(tip, pose, linear.pose) <= linear.valid):
                 linear = linearise(stator, tip, state, geometry.position, geometry.rows, pose)
             moved = _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb)  # u₀ + C F
-            more_radial = moved.radial - geometry.radial
-            more_tangential = moved.tangential - geometry.tangential
+            more = moved - geometry.displacement
             loaded_approach = (  # u · n of eq. (8)
                 geometry.approach
-                + geometry.normal_radial * more_radial
-                + geometry.normal_tangential * more_tangential
+                + geometry.normal_radial * more.radial
+                + geometry.normal_tangential * more.tangential
             )
             loaded = pose_of(loaded_approach, moved)
-            is_straight = all_lanes(absolute(more_tangential) <= STRAIGHT)
+            is_straight = all_lanes(absolute(more.tangential) <= STRAIGHT)
             if is_straight and all_lanes(distance(tip, pose, loaded) <= TOLERANCE):  # r, eq. (9)
                 converged = True
                 break
@@ -97,7 +87,7 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
         else:
             store_tip(u, start, geometry.approach)
         moved = _by_sweeps(modal, stator, tip, travel, state, u)
-    store_fields(subtract_fields(moved, free), state.response)
+    store_fields(moved - free, state.response)
     return is_within_limit(tip, moved.radial, moved.tangential)
 
 
@@ -108,7 +98,7 @@ def _geometry(tip, displacement, travel):
     normal_radial, normal_tangential = normal(tip, radial, tangential, approach)
     position = closest_position(tip, tangential, travel)
     rows = rows_under(tip, position, position)
-    return Geometry(radial, tangential, approach, normal_radial, normal_tangential, position, rows)
+    return Geometry(displacement, approach, normal_radial, normal_tangential, position, rows)
 
 
 @inlined
