@@ -118,12 +118,6 @@ def press(element, stator, tip, state, row, offset, approach):
 
 
 @inlined
-def no_linearisation(pose):
-    """Give one that holds nowhere."""
-    return Linearisation(pose, broadcast(0.0), broadcast(0.0), broadcast(-1.0))
-
-
-@inlined
 def linearise(stator, tip, state, position, rows, pose):
     """Press the elements under each node by its profile, and sum up what they answer."""
     element = load_fields(law.Element, stator.law)

@@ -73,16 +73,12 @@ def _by_lane_both(matrix: np.ndarray, n_nodes: int) -> np.ndarray:
 
 
 def _padded(rows: np.ndarray) -> np.ndarray:
-    n = rows.shape[-1]
-    padded = np.zeros((*rows.shape[:-1], n + -n % LANES))
-    padded[..., :n] = rows
-    return padded
+    return np.pad(rows, [*[(0, 0)] * (rows.ndim - 1), (0, -rows.shape[-1] % LANES)])
 
 
 def in_vectors(rows: np.ndarray) -> np.ndarray:
     """Arrange rows (r, n) of modes in blocks (n / 8, r, 8), one for each vector of modes."""
-    padded = _padded(rows)
-    return padded.reshape(len(rows), -1, LANES).swapaxes(0, 1)
+    return _padded(rows).reshape(len(rows), -1, LANES).swapaxes(0, 1)
 
 
 _NAMES = ("radial", "tangential", "further")[:COORDINATES]

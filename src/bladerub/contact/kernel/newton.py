@@ -15,7 +15,7 @@ from bladerub.contact.energy import FALLBACK, UNCONVERGED
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach
 from bladerub.contact.kernel.coulomb import mobilise
-from bladerub.contact.kernel.elements import approach_at, linearise, no_linearisation, pose_of, rows_under
+from bladerub.contact.kernel.elements import approach_at, linearise, pose_of, rows_under
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import APPROACH, Displacement, displaced, load_tip, store_tip
 from bladerub.numerics.machine_code import inlined
@@ -53,13 +53,14 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
     start = moved = free + load_tip(state.response)
     geometry = _geometry(tip, start, travel)  # eq. (7)
     pose = loaded = pose_of(geometry.approach, start)
-    linear = no_linearisation(pose)
+    linear_pose, valid = pose, broadcast(-1.0)  # where elements were linearised: nowhere yet
     converged = False
     tried = not stator.is_rigid and is_within_limit(tip, start.radial, start.tangential)
     if tried:
         for _ in range(MAX_ITERATIONS):
-            if not all_lanes(distance(tip, pose, linear.pose) <= linear.valid):
+            if not all_lanes(distance(tip, pose, linear_pose) <= valid):
                 linear = linearise(stator, tip, state, geometry.position, geometry.rows, pose)
+                linear_pose, valid = pose, linear.valid
             moved = _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb)  # u₀ + C F
             more = moved - geometry.displacement
             loaded_approach = (  # u · n of eq. (8)
@@ -77,7 +78,7 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
                 if not is_within_limit(tip, moved.radial, moved.tangential):
                     break
                 geometry = _geometry(tip, moved, travel)
-                linear = no_linearisation(pose)
+                valid = broadcast(-1.0)
     if converged:
         store_tip(u, moved, approach_at(loaded, 0.0))
     else:

@@ -85,13 +85,6 @@ def is_clear(tip, radial, tangential, approach, u, minimum_gap):
     return clear
 
 
-@in_place_of(elements.no_linearisation)
-def no_linearisation(pose):
-    """Give one that holds nowhere."""
-    zero = broadcast(0.0)
-    return Linearisation(pose, zero, zero, broadcast(-1.0), zero, zero, zero)
-
-
 @in_place_of(elements.linearise)
 def linearise(stator, tip, state, position, rows, pose):
     """Sum up couple and moments as well."""
