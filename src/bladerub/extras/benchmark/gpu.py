@@ -13,7 +13,7 @@ from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.extras.benchmark import record
 from bladerub.extras.gpu.batch import Device
-from bladerub.extras.gpu.many import LeftOut, simulate_many
+from bladerub.extras.gpu.many import simulate_many
 from bladerub.extras.study_runs import study_runs
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
@@ -64,16 +64,18 @@ def compare(
     if not described:
         raise BadInput("--gpu: the study has no coating with theta, whose runs alone are on a GPU")
     kernel: list[float] = []
-    notices: list[LeftOut] = []
+    handed_over: list[int] = []
+
+    def note(runs: int, line: str) -> None:
+        handed_over.append(runs)
+        report(line)
+
     watched: Device = partial(device, watch=kernel.append)
     start = time.perf_counter()
     gpu_measures = {
-        number: measures(result)
-        for number, result in simulate_many(blade, described, watched, notices.append)
+        number: measures(result) for number, result in simulate_many(blade, described, watched, note)
     }
     seconds = time.perf_counter() - start
-    for left_out in notices:
-        report(str(left_out))
     numbers = np.linspace(0, len(described) - 1, min(n_compared, len(described))).astype(int).tolist()
     report(f"{len(numbers)} runs on this processor")
 
@@ -87,7 +89,7 @@ def compare(
     return {
         **{name: record.describe()[name] for name in ("processor", "cores")},
         "gpu_runs": len(described),
-        "handed_over": sum(left_out.runs for left_out in notices),
+        "handed_over": sum(handed_over),
         "kernel_s": sum(kernel),
         "gpu_s": seconds,
         "gpu_steps_per_second": steps / sum(kernel),

@@ -2,7 +2,6 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple
 
 from threadpoolctl import threadpool_limits
 
@@ -18,34 +17,20 @@ from bladerub.extras.gpu import batch
 from bladerub.extras.gpu.batch import Device, Variant
 
 
-class LeftOut(NamedTuple):
-    """Runs that the processor computes instead of the device; the string is a line for a log."""
-
-    runs: int
-    total: int
-    reason: str
-
-    def __str__(self) -> str:
-        return f"{self.runs} of {self.total} runs on the CPU: {self.reason}"
-
-
-_Prepared = tuple[int, Recurrence, Simulation]
-
-
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def simulate_many(
     blade: ReducedBlade,
     specs: Sequence[RunSpec],
     device: Device,
-    report: Callable[[LeftOut], None] = lambda left_out: None,
+    report: Callable[[int, str], None] = lambda runs, line: None,
 ) -> Iterator[tuple[int, RunResult]]:
     """Simulate runs on a device; yield the number of each with its result, in any order.
 
     A run that the loop of the device does not know, or can't finish since Newton's method does not converge
-    in one of its steps, is simulated as `bladerub.contact.run.simulate` does; `report` is told of these.
-    Raises as `simulate`.
+    in one of its steps, is simulated as `bladerub.contact.run.simulate` does; `report` is told how many these
+    are, with a line for a log. Raises as `simulate`.
     """
-    variants: dict[Variant, list[_Prepared]] = defaultdict(list)
+    variants: dict[Variant, list[tuple[int, Recurrence, Simulation]]] = defaultdict(list)
     left_out: dict[str, list[int]] = defaultdict(list)
     for number, spec in enumerate(specs):
         rule, simulation = set_up(blade, spec)
@@ -69,6 +54,6 @@ def simulate_many(
             else:
                 yield number, run_result(blade, specs[number], rule, simulation, history, initial)
     for reason, numbers in left_out.items():
-        report(LeftOut(len(numbers), len(specs), reason))
+        report(len(numbers), f"{len(numbers)} of {len(specs)} runs on the CPU: {reason}")
         for number in numbers:
             yield number, simulate(blade, specs[number])

@@ -34,7 +34,7 @@ class Gpu(Solver):
         """Yield each run as it is done; raises `bladerub.extras.gpu.device.NoGpuError` without a GPU."""
         from bladerub.extras.gpu import many, server  # load the compiler: who plans runs alone does without
 
-        results = many.simulate_many(blade, specs, server.find(), lambda left_out: report(str(left_out)))
+        results = many.simulate_many(blade, specs, server.find(), lambda runs, line: report(line))
         return (Solved(number, result, 0.0) for number, result in results)
 
     def determinants(self) -> dict[str, str]:

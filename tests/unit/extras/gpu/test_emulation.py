@@ -37,7 +37,7 @@ CASES = {
 def pairs(blade, specs):
     """Results of the emulation, each with that of the processor; none may be left to the latter."""
     told = []
-    found = dict(simulate_many(blade, specs, emulation.run, told.append))
+    found = dict(simulate_many(blade, specs, emulation.run, lambda runs, line: told.append(line)))
     assert not told
     return [(found[number], simulate(blade, spec)) for number, spec in enumerate(specs)]
 
