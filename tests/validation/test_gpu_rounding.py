@@ -44,7 +44,8 @@ def more_exact(coarse_blade, specs):
 
 def emulated(blade, specs, real):
     left_out = []
-    results = dict(simulate_many(blade, specs, partial(emulation.run, real=real), left_out.append))
+    device = partial(emulation.run, real=real)
+    results = dict(simulate_many(blade, specs, device, lambda runs, line: left_out.append(line)))
     assert not left_out
     return [results[number] for number in range(len(specs))]
 

@@ -26,18 +26,6 @@ def test_threads_that_ask_together_share_one_value():
     assert asked == [3]
 
 
-def test_the_oldest_values_are_left():
-    asked = []
-
-    @once(maxsize=2)
-    def double(number):
-        asked.append(number)
-        return 2 * number
-
-    assert [double(n) for n in (1, 2, 1, 3, 1, 2)] == [2, 4, 2, 6, 2, 4]
-    assert asked == [1, 2, 3, 2]
-
-
 def test_after_an_error_the_value_is_asked_for_again():
     @once(maxsize=2)
     def inverse(number):

@@ -107,7 +107,9 @@ def source(variant: Variant) -> str:
         "SHARED": _shared(variant),
         "MAX_ITERATIONS": newton.MAX_ITERATIONS,
         "N_FORMS": len(Forms._fields),
-    } | {name.upper(): row * WARP for row, name in enumerate(Forms._fields)}
+    }
+    forms = enumerate(Forms._fields)
+    constants |= {name.upper(): row * WARP for row, name in forms if name != "loss_before"}
     numbers = {
         "TOLERANCE": newton.TOLERANCE,
         "STRAIGHT": newton.STRAIGHT,
