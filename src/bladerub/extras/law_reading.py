@@ -123,13 +123,13 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
         if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
             continue
         targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-        if "PARAMETERS" in map(ast.unparse, targets):
+        if "PARAMETERS" in (target.id for target in targets if isinstance(target, ast.Name)):
             try:
                 parameters = _PARAMETERS.validate_python(ast.literal_eval(node.value))
             except (TypeError, ValueError, RecursionError, MemoryError) as error:
                 requirement = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
                 raise ValueError(f"PARAMETERS on line {node.lineno}: {requirement}") from error
-    names = {symbol.get_name() for symbol in symbols if symbol.is_assigned()}
+    names = {symbol.get_name() for symbol in symbols if symbol.is_assigned() or symbol.is_imported()}
     if source and (missing := [name for name in CONTRACT if name not in names]):
         raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
     if "strength" in names and "Layer" not in names:
