@@ -173,8 +173,8 @@ def load_tip(u):
 @inlined
 def displaced(response, force, free):
     """Add to the displacement `free` what contact forces (24,) cause, a row of `response` for each."""
-    moved, more = free, tip_displacement(no_sums())  # two sums at the same time
+    even, odd = free, tip_displacement(no_sums())  # two sums at the same time
     for i in range(0, WIDTH, 2):
-        moved = add_products(moved, address_of(response, WIDTH * i), broadcast(read(force, i)))
-        more = add_products(more, address_of(response, WIDTH * (i + 1)), broadcast(read(force, i + 1)))
-    return moved + more
+        even = add_products(even, address_of(response, WIDTH * i), broadcast(read(force, i)))
+        odd = add_products(odd, address_of(response, WIDTH * (i + 1)), broadcast(read(force, i + 1)))
+    return even + odd

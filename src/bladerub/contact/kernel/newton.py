@@ -62,14 +62,14 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
                 linear = linearise(stator, tip, state, geometry.position, geometry.rows, pose)
                 linear_pose, valid = pose, linear.valid
             moved = _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb)  # u₀ + C F
-            more = moved - geometry.displacement
+            change = moved - geometry.displacement
             loaded_approach = (  # u · n of eq. (8)
                 geometry.approach
-                + geometry.normal_radial * more.radial
-                + geometry.normal_tangential * more.tangential
+                + geometry.normal_radial * change.radial
+                + geometry.normal_tangential * change.tangential
             )
             loaded = pose_of(loaded_approach, moved)
-            is_straight = all_lanes(absolute(more.tangential) <= STRAIGHT)
+            is_straight = all_lanes(absolute(change.tangential) <= STRAIGHT)
             if is_straight and all_lanes(distance(tip, pose, loaded) <= TOLERANCE):  # r, eq. (9)
                 converged = True
                 break
