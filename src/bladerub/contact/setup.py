@@ -78,8 +78,8 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
     rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(np.ones(n - n_nodes), -1.0, 0.0))
     ones = {name: np.ones(shape) for name, shape in kernel("records").shapes(rule.omega.size, 8).items()}
     tip = records.Tip(*(ones.get(name, 1.0) for name in records.Tip._fields))
-    arrays = {name: ones[name] for name in records.Stator._fields if name in ones}
-    stator = records.Stator(n_elements=8, is_rigid=False, normal_factor=-1.0, tangential_factor=0.0, **arrays)
+    ones |= {"n_elements": 8, "is_rigid": False, "normal_factor": -1.0, "tangential_factor": 0.0}
+    stator = records.Stator(**{name: ones[name] for name in records.Stator._fields if name in ones})
     flight = kernel("free_flight").free_flight(rule, 1, 0.0, 0.0)
     state = kernel("records").at_rest(1, 8, _kept_by(module_of(law)))
     modal, simulation = kernel("modal").pack(rule), kernel("loop").Simulation
