@@ -9,22 +9,41 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
-from bladerub.contact.kernel.records import Forms
+from bladerub.contact.kernel.records import N_FORMS
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.machine_code import inlined
-from bladerub.numerics.memory import address_of, aligned, load, load_fields, no_sums, store
+from bladerub.numerics.memory import aligned, load, no_sums, store
 from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
 
 MOST_STEPS = 24
 """Most time steps at once: more reach further, and so fit between two contacts less often."""
-N_FORMS = len(Forms._fields)
+
+(
+    INCREMENT_Q,
+    INCREMENT_D,
+    LAST_STEP_Q,
+    LAST_STEP_D,
+    LOSS_QQ,
+    LOSS_QD,
+    LOSS_DD,
+    LOSS_BEFORE,
+    MEAN_Q,
+    MEAN_D,
+    BOUND_Q,
+    BOUND_D,
+) = (LANES * row for row in range(N_FORMS))
+"""Where the coefficients of a vector of modes begin, per unit of q or of d, or of their products: see
+`FreeFlight.forms`."""
 
 
 class FreeFlight(NamedTuple):
-    """What `n_steps` free steps of a scheme add up to."""
+    """Coefficients of `n_steps` free steps of modes that are at q and have moved by d in the last step."""
 
     n_steps: int  # Time steps at once
-    forms: np.ndarray  # (n / 8, 12, 8): `Forms` for each vector of modes
+    # (n / 8, 12, 8): For each vector of modes: increment of q; last of the steps; damping loss, and that
+    # of the step before; mean increment of node 1; bound of the approach of any node to the casing within
+    # the steps
+    forms: np.ndarray
     sideways: float  # Most that any node moves along the casing while the bound of its approach is 1
 
 
@@ -47,18 +66,16 @@ def free_flight(rule: Recurrence, n_steps: int, slope: float, edge: float = 0.0)
     radial, tangential = groups[:2]
     approach = radial + slope * tangential + edge * groups[2:].max(axis=0, initial=0.0)
     bound = np.abs(increments).max(axis=0) * approach
-    forms = Forms(
+    forms = [
         *increments[-1],
         *steps[-1],
-        loss_qq=rule.loss * np.sum(by_q**2, axis=0),
-        loss_qd=rule.loss * np.sum(2.0 * by_q * by_d, axis=0),
-        loss_dd=rule.loss * np.sum(by_d**2, axis=0),
-        loss_before=rule.loss,
-        mean_q=mean[0] * rule.tip[0],
-        mean_d=mean[1] * rule.tip[0],
-        bound_q=bound[0],
-        bound_d=bound[1],
-    )
+        rule.loss * np.sum(by_q**2, axis=0),
+        rule.loss * np.sum(2.0 * by_q * by_d, axis=0),
+        rule.loss * np.sum(by_d**2, axis=0),
+        rule.loss,
+        *mean * rule.tip[0],
+        *bound,
+    ]
     moving = tangential > 0
     with np.errstate(divide="ignore"):
         sideways = np.max(tangential[moving] / approach[moving], initial=0.0)
@@ -66,9 +83,8 @@ def free_flight(rule: Recurrence, n_steps: int, slope: float, edge: float = 0.0)
 
 
 @inlined
-def _forms(flight, k):
-    """Load those of the modes from mode k on."""
-    return load_fields(Forms, address_of(flight.forms, N_FORMS * k))
+def _form(flight, k, row):
+    return load(flight.forms, N_FORMS * k + row)
 
 
 @inlined
@@ -76,9 +92,9 @@ def bound(flight, n, q, q_before):
     """Bound of what any node can approach the casing in the next free flight, m."""
     reach = broadcast(0.0)
     for k in range(0, n, LANES):
-        present, form = load(q, k), _forms(flight, k)
-        reach = reach + form.bound_q * absolute(present)
-        reach = reach + form.bound_d * absolute(present - load(q_before, k))
+        present = load(q, k)
+        reach = reach + _form(flight, k, BOUND_Q) * absolute(present)
+        reach = reach + _form(flight, k, BOUND_D) * absolute(present - load(q_before, k))
     return lane_sum(reach)
 
 
@@ -93,19 +109,21 @@ def fly(flight, modal, q, q1, q2):
     loss = mean = reach = broadcast(0.0)
     sums = no_sums()
     for k in range(0, modal.n, LANES):
-        present, form = load(q, k), _forms(flight, k)
+        present = load(q, k)
         last, change = present - load(q1, k), present - load(q2, k)
-        increment = form.increment_q * present + form.increment_d * last
-        last_step = form.last_step_q * present + form.last_step_d * last
-        loss = loss + (form.loss_qq * present + form.loss_qd * last) * present
-        before = form.loss_before * change * change
-        loss = loss + form.loss_dd * last * last + before
-        mean = mean + form.mean_q * present + form.mean_d * last
+        increment = _form(flight, k, INCREMENT_Q) * present + _form(flight, k, INCREMENT_D) * last
+        last_step = _form(flight, k, LAST_STEP_Q) * present + _form(flight, k, LAST_STEP_D) * last
+        loss = loss + (_form(flight, k, LOSS_QQ) * present + _form(flight, k, LOSS_QD) * last) * present
+        before = _form(flight, k, LOSS_BEFORE) * change * change
+        loss = loss + _form(flight, k, LOSS_DD) * last * last + before
+        mean = mean + _form(flight, k, MEAN_Q) * present + _form(flight, k, MEAN_D) * last
         x = present + increment
         store(q, k, x)
         store(q1, k, x - last_step)
         store(q2, k, x)
-        reach = reach + form.bound_q * absolute(x) + form.bound_d * absolute(last_step)
+        reach = (
+            reach + _form(flight, k, BOUND_Q) * absolute(x) + _form(flight, k, BOUND_D) * absolute(last_step)
+        )
         sums = add_tip_displacement(modal, k, x, sums)
     return tip_displacement(sums), loss, lane_sum(mean), lane_sum(reach)
 

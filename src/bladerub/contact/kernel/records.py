@@ -14,28 +14,11 @@ from bladerub.numerics.lanes import COORDINATES, lanes_for
 from bladerub.numerics.memory import aligned
 from bladerub.numerics.vectors import LANES
 
+N_FORMS = 12
+"""Coefficients of a free flight for each mode (`bladerub.contact.kernel.free_flight`)."""
+
 _MAY_BE_INFINITE = {"minimum_gap", "sideways"}
 """Fields that are compared only: where there is no casing, and of a tip that moves sideways alone."""
-
-
-class Forms(NamedTuple):
-    """Coefficients of a free flight of modes that are at q and have moved by d in the last step.
-
-    Each is per unit of one of them, or of their products; a vector, or an array of all modes.
-    """
-
-    increment_q: np.ndarray  # Increment of q
-    increment_d: np.ndarray
-    last_step_q: np.ndarray  # Last of the steps
-    last_step_d: np.ndarray
-    loss_qq: np.ndarray  # Damping loss
-    loss_qd: np.ndarray
-    loss_dd: np.ndarray
-    loss_before: np.ndarray  # That of the step before
-    mean_q: np.ndarray  # Mean increment of node 1
-    mean_d: np.ndarray
-    bound_q: np.ndarray  # Bound of the approach of any node to the casing within the steps
-    bound_d: np.ndarray
 
 
 class Stator(NamedTuple):
@@ -141,7 +124,7 @@ def shapes(n: int, n_elements: int, layered: int = 0, kept: int = 0) -> dict:
         **dict.fromkeys(("compliance", "mobility"), (tip, tip)),
         **dict.fromkeys(("stopping", "start", "per_metre", "radius", "lever", "self_compliance"), lanes),
         "tip": (n // LANES, tip, LANES),
-        "forms": (n // LANES, len(Forms._fields), LANES),
+        "forms": (n // LANES, N_FORMS, LANES),
         "initial_gap": of_elements,
         "minimum_gap": (n_elements,),
         "law": (len(law.Element._fields), LANES),

@@ -13,11 +13,10 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.contact import energy
-from bladerub.contact.kernel import elements, newton
+from bladerub.contact.kernel import elements, free_flight, newton
 from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import Modal
-from bladerub.contact.kernel.records import Forms
 from bladerub.contact.laws import module_of, source_of
 from bladerub.contact.run import History
 from bladerub.contact.spec import ElementLaw, RunSpec
@@ -43,6 +42,8 @@ _OF_ELEMENTS = (
 """Entries of the ledger in the order of ``loop.cu``: a group of lanes each, and the sum of the groups."""
 _LEDGER_ROWS = 2 + len(_OF_ELEMENTS) - 1
 FOLDER = Path(__file__).parent
+_FORMS = ("INCREMENT_Q", "INCREMENT_D", "LAST_STEP_Q", "LAST_STEP_D", "LOSS_QQ", "LOSS_QD", "LOSS_DD")
+_FORMS += ("MEAN_Q", "MEAN_D", "BOUND_Q", "BOUND_D")
 
 
 class Variant(NamedTuple):
@@ -106,10 +107,8 @@ def source(variant: Variant) -> str:
         "ROWS": variant.rows,
         "SHARED": _shared(variant),
         "MAX_ITERATIONS": newton.MAX_ITERATIONS,
-        "N_FORMS": len(Forms._fields),
-    }
-    forms = enumerate(Forms._fields)
-    constants |= {name.upper(): row * WARP for row, name in forms if name != "loss_before"}
+        "N_FORMS": free_flight.N_FORMS,
+    } | {name: getattr(free_flight, name) // LANES * WARP for name in _FORMS}
     numbers = {
         "TOLERANCE": newton.TOLERANCE,
         "STRAIGHT": newton.STRAIGHT,
