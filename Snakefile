@@ -56,6 +56,7 @@ onerror:
 
 wildcard_constraints:
     coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_(theta|mu)|rigid_mu)[^_/]+(_xi[^_/]+)?(_h[^_/]+)?(_d[^_/]+)?",
+    casing="|".join(config["casings"]),
 
 
 include: "src/rules/outputs.smk"

@@ -7,44 +7,31 @@ PEAKS = config["analysis"]["peaks"] | {
     for name in used_casings(STUDY)
     if peak_orders(STUDY, name) != config["analysis"]["peaks"]["orders"]
 }
+# A row for each peak, and for each run whether it diverges
+for name, module, settings in (
+    ("peaks", "study.peak_table", PEAKS),
+    ("divergence", "study.divergence", config["analysis"]["divergence"]),
+):
 
-
-rule peaks:
-    input:
-        blade=rules.blade.output.reduced_model,
-        maps=expand(rules.coating.output.map, coating=COATINGS),
-        analysing=files_behind("study.peak_table"),
-    output:
-        **described(table=f"{TABLES}/peaks.csv"),
-    log:
-        f"{RESULTS}/logs/peaks.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/peaks.tsv"
-    group:
-        "drawing"
-    params:
-        peaks=PEAKS,
-    script:
-        "../scripts/peaks.py"
-
-
-rule divergence:
-    input:
-        blade=rules.blade.output.reduced_model,
-        maps=expand(rules.coating.output.map, coating=COATINGS),
-        analysing=files_behind("study.divergence"),
-    output:
-        **described(table=f"{TABLES}/divergence.csv"),
-    log:
-        f"{RESULTS}/logs/divergence.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/divergence.tsv"
-    group:
-        "drawing"
-    params:
-        divergence=config["analysis"]["divergence"],
-    script:
-        "../scripts/divergence.py"
+    rule:
+        name:
+            name
+        input:
+            blade=rules.blade.output.reduced_model,
+            maps=expand(rules.coating.output.map, coating=COATINGS),
+            analysing=files_behind(module),
+        output:
+            **described(table=f"{TABLES}/{name}.csv"),
+        log:
+            f"{RESULTS}/logs/{name}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/{name}.tsv"
+        group:
+            "drawing"
+        params:
+            settings=settings,
+        script:
+            "../scripts/map_table.py"
 
 
 rule findings:

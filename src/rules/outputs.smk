@@ -52,15 +52,11 @@ def described(**tables):
     return tables | descriptions
 
 
-def drawn(name, category, with_data=False):
-    """The files of a figure; histories at further speeds have one caption."""
-    caption = "history" if name.startswith("history_") else name
-    files = {
-        "png": shown(f"{PLOTS}/{name}.png", caption, category),
-        "pdf": f"{PLOTS}/{name}.pdf",
-    }
-    data = described(data=f"{PLOTS}/{name}.csv") if with_data else {}
-    return files | data
+def drawn(name, category=None, with_data=False):
+    """The files of a figure, in the report if it has a category; histories at further speeds have one caption."""
+    png, caption = f"{PLOTS}/{name}.png", "history" if name.startswith("history_") else name
+    files = {"png": shown(png, caption, category) if category else png, "pdf": f"{PLOTS}/{name}.pdf"}
+    return files | (described(data=f"{PLOTS}/{name}.csv") if with_data else {})
 
 
 def drawn_together(names, category, with_data=True):

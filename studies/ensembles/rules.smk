@@ -42,19 +42,20 @@ rule ensemble:
         "scripts/ensemble.py"
 
 
-ENSEMBLES = expand(rules.ensemble.output[0], coating=COATINGS)
+BANDS, VERDICTS = {"peaks": "peak_bands", "runs": "run_bands"}, {}
+if JUDGED:
+    BANDS["claims"] = "claim_draws"
+    VERDICTS = {"findings": rules.findings.output[0], "rom_accuracy": rules.blade_tables.output.rom_accuracy}
 
 
 rule bands:
     input:
+        **VERDICTS,
         maps=expand(rules.coating.output.map, coating=COATINGS),
-        ensembles=ENSEMBLES,
+        ensembles=expand(ENSEMBLE, coating=COATINGS),
         analysing=files_behind("extras.ensembles.bands", "study.findings"),
     output:
-        **described(
-            peaks=f"{TABLES}/peak_bands.csv",
-            runs=f"{TABLES}/run_bands.csv",
-        ),
+        **described(**{kind: f"{TABLES}/{name}.csv" for kind, name in BANDS.items()}),
     log:
         f"{RESULTS}/logs/bands.log",
     benchmark:
@@ -66,25 +67,6 @@ rule bands:
         divergence=config["analysis"]["divergence"],
     script:
         "scripts/bands.py"
-
-
-rule claim_draws:
-    input:
-        maps=rules.bands.input.maps,
-        ensembles=ENSEMBLES,
-        findings=rules.findings.output[0],
-        rom_accuracy=rules.blade_tables.output.rom_accuracy,
-        analysing=rules.bands.input.analysing,
-    output:
-        **described(table=f"{TABLES}/claim_draws.csv"),
-    log:
-        f"{RESULTS}/logs/claim_draws.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/claim_draws.tsv"
-    group:
-        "drawing"
-    script:
-        "scripts/claim_draws.py"
 
 
 rule peak_bands:
@@ -111,7 +93,5 @@ if config["ensemble"]["members"]:
     # the tables need the members, but Snakemake replaces no lost one for an ensemble that is there
     ADDED_TO_ALL["ensemble"] = expand(rules.ensemble.output, coating=COATINGS)
     ADDED_TO_ALL["bands"] = rules.bands.output
-    if JUDGED:
-        ADDED_TO_ALL["claim_draws"] = rules.claim_draws.output
     if WITH_MODULI:
         ADDED_TO_ALL["peak_bands"] = rules.peak_bands.output

@@ -30,8 +30,6 @@ rule heat:
         **described(table=f"{TABLES}/heat.csv"),
     log:
         f"{RESULTS}/logs/heat.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/heat.tsv"
     resources:
         runtime=minutes(5),
     params:

@@ -50,8 +50,6 @@ rule sweep:
         SWEEPS,
     log:
         f"{RESULTS}/logs/sweep/{{coating}}_{{direction}}_{{rate}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/sweep/{{coating}}_{{direction}}_{{rate}}.tsv"
     wildcard_constraints:
         direction="|".join(DIRECTIONS),
         rate=r"[0-9.e+-]+",
@@ -92,8 +90,6 @@ rule long_coating:
         f"{RESULTS}/long_runs/{{coating}}.h5",
     log:
         f"{RESULTS}/logs/long_coating/{{coating}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/long_coating/{{coating}}.tsv"
     resources:
         mem_mb=memory_mb,
         runtime=minutes(10),

@@ -14,8 +14,6 @@ rule rigs:
         **described(table=f"{TABLES}/rigs.csv"),
     log:
         f"{RESULTS}/logs/rigs.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rigs.tsv"
     params:
         dpi=DPI,
     script:

@@ -16,8 +16,6 @@ rule stress:
         ),
     log:
         f"{RESULTS}/logs/stress.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/stress.tsv"
     resources:
         mem_mb=memory_mb,
         runtime=minutes(20),

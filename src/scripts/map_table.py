@@ -1,0 +1,24 @@
+"""Find the resonant peaks of every coating, or judge for every run whether it diverges."""
+
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+from pathlib import Path
+
+from bladerub.settings.study import typed
+from bladerub.study import divergence, peak_table
+from bladerub.study.grid import modulus_unit
+from bladerub.study.maps import read_map
+from bladerub.workflow import outputs
+
+TABLES = {  # what makes each, its column of speeds, and that of the same in rpm
+    "peaks": (peak_table.table, "f_peak", "f_peak_rpm"),
+    "divergence": (divergence.table, "f_omega", "rpm"),
+}
+
+config = typed(snakemake.config)
+make, speed, rpm = TABLES[Path(snakemake.output.table).stem]
+table = make(config, map(read_map, snakemake.input.maps))
+units = {"modulus_unit": modulus_unit(config), rpm: outputs.rpm(snakemake, table[speed])}
+outputs.save(snakemake, table=table.assign(**units))
