@@ -41,15 +41,11 @@ def changes(
         numbers = both[["measured", "measured_second"]].apply(pd.to_numeric, errors="coerce")
         changed |= numbers.diff(axis=1).iloc[:, 1].abs() > _CHANGE * numbers["measured"].abs()
     both = both[changed]
-    answers = [
-        [f"{measured(part)}: {part['holds']}" for _, part in study.iterrows()]
-        for study in (both, both.filter(like="_second").rename(columns=lambda name: name[: -len("_second")]))
-    ]
-    return table(
-        pd.DataFrame(
-            {"part": both["id"], "the paper": _statements(both)} | dict(zip(headings, answers, strict=True))
-        )
-    )
+    answers = {}
+    for heading, study in zip(headings, (first, second), strict=True):
+        parts = study.set_index("id").loc[both["id"]]
+        answers[heading] = [f"{measured(part)}: {part['holds']}" for _, part in parts.iterrows()]
+    return table(pd.DataFrame({"part": both["id"], "the paper": _statements(both)} | answers))
 
 
 def variations(margins: pd.DataFrame) -> str:

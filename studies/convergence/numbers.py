@@ -2,8 +2,6 @@
 
 import math
 
-import pandas as pd
-
 from docs.numbers import fixed, headings, mm, percent, rows, span, table
 from docs.numbers.refinement import cost, greatest_changes, refinement
 
@@ -25,16 +23,17 @@ def numbers(tables):
 
 def _steps(steps):
     study = rows(steps, tolerance=0.01)
-    calm = study[~study["sensitive"]].groupby("E")
-    errors = pd.DataFrame(
-        {
-            "E": [f"{E:g}" if math.isfinite(E) else "rigid" for E in calm.groups],
-            "chaotic": study.groupby("E")["sensitive"].sum().to_numpy(),
-            "thousand": calm["steps_per_revolution"].median().to_numpy() / 1e3,
-            "median": calm["error"].median().to_numpy(),
-            "most": calm["error"].quantile(0.9).to_numpy(),
-            "worst": calm["error"].max().to_numpy(),
-        }
+    errors = (
+        study[~study["sensitive"]]
+        .groupby("E")
+        .agg(
+            thousand=("steps_per_revolution", "median"),
+            median=("error", "median"),
+            most=("error", lambda error: error.quantile(0.9)),
+            worst=("error", "max"),
+        )
+        .assign(chaotic=study.groupby("E")["sensitive"].sum())
+        .reset_index()
     )
 
     def share(error):
@@ -44,8 +43,8 @@ def _steps(steps):
         "errors": table(
             errors,
             {
-                "E": "E",
-                "thousand": ("steps in a revolution, thousand", fixed),
+                "E": ("E", lambda E: f"{E:g}" if math.isfinite(E) else "rigid"),
+                "thousand": ("steps in a revolution, thousand", lambda steps: fixed(steps / 1e3)),
                 "median": ("median error, %", share),
                 "most": ("nine runs in ten, %", share),
                 "worst": ("worst, %", share),

@@ -1,4 +1,4 @@
-"""How accurate runs are, and the peaks of some coatings with finer bars, more nodes, other treatments of impact."""
+"""How accurate runs are; peaks with finer bars, with more nodes, and with other treatments of impact."""
 
 from bladerub.workflow import job
 

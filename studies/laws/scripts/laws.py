@@ -48,13 +48,8 @@ panels = {
 }
 table = pd.concat(
     pd.DataFrame(
-        {
-            "element_law": loading.coating.element_law.label,
-            "law_case": label,
-            "strain": loading.strain,
-            "stress": loading.stress,
-            "plastic_strain": loading.plastic_strain,
-        }
+        {"element_law": loading.coating.element_law.label, "law_case": label}
+        | {name: getattr(loading, name) for name in ("strain", "stress", "plastic_strain")}
     )
     for cycles in panels.values()
     for label, loading in cycles.items()

@@ -16,7 +16,6 @@ of two draws, and lies within the band.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -80,22 +79,17 @@ def band(values: Sequence[float] | np.ndarray) -> Band:
     return Band(float(np.median(draws)), float(draws.mean() - half), float(draws.mean() + half))
 
 
-def draws(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> Iterator[list[CoatingMap]]:
-    """Yield each draw of the study of these `maps`, the study itself first; `ensembles` are of the same."""
-    yield list(maps)
-    for member in range(min((len(ensemble.members) for ensemble in ensembles), default=0)):
-        yield _with(maps, [(ensemble, ensemble.members[member]) for ensemble in ensembles])
+def draws(ensembles: Sequence[Ensemble]) -> list[tuple[CoatingMap, ...]]:
+    """List the runs of each draw of the study: those of one member of each of the `ensembles`."""
+    return list(zip(*(ensemble.members for ensemble in ensembles), strict=False))  # as many as all have
 
 
-def refined(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> list[CoatingMap]:
-    """Return the study of these `maps` with the refined runs of the `ensembles` in place of its own."""
-    return _with(maps, [(ensemble, ensemble.refined) for ensemble in ensembles])
-
-
-def _with(maps: Sequence[CoatingMap], runs: Sequence[tuple[Ensemble, CoatingMap]]) -> list[CoatingMap]:
-    """Return `maps` with the `runs` of ensembles in place of their own."""
+def with_runs(
+    maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble], runs: Sequence[CoatingMap]
+) -> list[CoatingMap]:
+    """Return the study of these `maps` with `runs`, of a member of each ensemble, in place of its own."""
     coatings = {coating.case: coating for coating in maps}
-    for ensemble, drawn in runs:
+    for ensemble, drawn in zip(ensembles, runs, strict=True):
         coatings[drawn.case] = ensemble.draw(coatings[drawn.case], drawn)
     return list(coatings.values())
 
@@ -105,13 +99,16 @@ def of_peaks(config: Config, maps: Sequence[CoatingMap], ensembles: Sequence[Ens
 
     The last column, ``modulus_unit``, is what E = 1 and K = 1 are, Pa.
     """
-    drawn = [peak_table.table(config, coatings) for coatings in draws(maps, ensembles)]
-    table = drawn[0].assign(draws=len(drawn))
+    refined = [ensemble.refined for ensemble in ensembles]
+    peaks = peak_table.table(config, maps)
+    *drawn, finer = (
+        peak_table.table(config, with_runs(maps, ensembles, runs)) for runs in [*draws(ensembles), refined]
+    )
+    table = peaks.assign(draws=1 + len(drawn))
     for name in ("f_peak", "amplitude"):
-        bands = [band(values) for values in np.transpose([peaks[name] for peaks in drawn])]
+        bands = [band(values) for values in np.transpose([draw[name] for draw in (peaks, *drawn)])]
         table = table.join(pd.DataFrame(bands, index=table.index).add_prefix(f"{name}_"))
-    finer = peak_table.table(config, refined(maps, ensembles))
-    cases = {ensemble.refined.case for ensemble in ensembles}
+    cases = {runs.case for runs in refined}
     is_refined = [
         coating.case in cases for coating in maps for _ in peak_settings(config, coating.case.casing).orders
     ]
@@ -175,21 +172,19 @@ def of_findings(
     claims = [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
     runs = plain(divergence.table(config, maps))
 
-    def verdicts(drawn: list[CoatingMap], replaced: list[CoatingMap]) -> np.ndarray:
-        rows = _drawn_runs(runs, plain(divergence.table(config, replaced)))
-        tables = {"peaks": peak_table.table(config, drawn), "divergence": rows, "rom_accuracy": rom_accuracy}
-        judged = findings.judge(Evidence(config, tables, drawn), claims)
+    def verdicts(replacing: Sequence[CoatingMap]) -> np.ndarray:
+        study = with_runs(maps, ensembles, replacing)
+        rows = _drawn_runs(runs, plain(divergence.table(config, replacing)))
+        tables = {"peaks": peak_table.table(config, study), "divergence": rows, "rom_accuracy": rom_accuracy}
+        judged = findings.judge(Evidence(config, tables, study), claims)
         return judged.set_index("id").holds.reindex(table["id"]).to_numpy()
 
-    agreements = [
-        verdicts(drawn, [ensemble.members[member] for ensemble in ensembles]) == table.holds.to_numpy()
-        for member, drawn in enumerate(islice(draws(maps, ensembles), 1, None))
-    ]
-    finer = [ensemble.refined for ensemble in ensembles]
+    agreements = [verdicts(members) == table.holds.to_numpy() for members in draws(ensembles)]
+    refined = [ensemble.refined for ensemble in ensembles]
     return table[["id", "holds"]].assign(
         draws=len(agreements),
         share_of_draws=np.mean(agreements, axis=0) if agreements else math.nan,
-        holds_refined=verdicts(refined(maps, ensembles), finer) if finer else "",
+        holds_refined=verdicts(refined) if refined else "",
     )
 
 

@@ -97,8 +97,7 @@ def _distribution(values: Sequence[float]) -> dict[str, float]:
 
 
 def _distributions(several: Sequence[Differences]) -> dict[str, Any]:
-    by_measure = zip(Differences._fields, zip(*several, strict=True), strict=True)
-    return {measure: _distribution(values) for measure, values in by_measure}
+    return {measure: _distribution(values) for measure, values in pd.DataFrame(several).items()}
 
 
 def _entry(verified: VerifiedRun) -> dict[str, Any]:

@@ -93,8 +93,7 @@ def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
         reference_table = tables.read(path)
         if not {*READ, "uncertainty", "unit"} <= set(reference_table) or not (folder / path.name).is_file():
             continue
-        table = tables.read(folder / path.name, READ)
-        table = table[[column for column in (*READ, "unit", "uncertainty") if column in table]]
+        table = tables.read(folder / path.name, READ).filter([*READ, "unit", "uncertainty"])
         for name, content in ((Path(reference) / path.name, reference_table), (folder / path.name, table)):
             _check_numbers(name, content)
         both = reference_table.merge(table, how="left", on="number", suffixes=("_reference", ""))

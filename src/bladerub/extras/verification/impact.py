@@ -68,7 +68,7 @@ def moreau_jean(modes: Modes, damping_ratio: float, step: float, restitution: fl
     flow = np.array([1 + step / 2 * pull, step / 2 * (1 + keep), pull, keep])
     bounce = (modes.tip / implicit) @ modes.tip.T
     kick = np.array([step / 2 / implicit, 1 / implicit])
-    return Rule(flow, kick, _rows(modes), step / 2 * bounce, 0.0, bounce, restitution)
+    return Rule(flow, kick, np.ascontiguousarray(modes.tip.T), step / 2 * bounce, 0.0, bounce, restitution)
 
 
 def massless_boundary(modes: Modes, damping_ratio: float, step: float, n_modes: int) -> Rule:
@@ -94,11 +94,8 @@ def _by_position(modes: Modes, damping_ratio: float, step: float, static: np.nda
     cosine, slope = np.cos(damped * step), damping_ratio * modes.omega * sine
     flow = decay * np.array([cosine + slope, sine, -(modes.omega**2) * sine, cosine - slope])
     shift = (modes.tip * flow[1]) @ modes.tip.T + static / step
-    return Rule(flow, flow[[1, 3]], _rows(modes), shift, soft / step, 0 * shift, math.nan)
-
-
-def _rows(modes: Modes) -> np.ndarray:
-    return np.ascontiguousarray(modes.tip.T)
+    tip = np.ascontiguousarray(modes.tip.T)
+    return Rule(flow, flow[[1, 3]], tip, shift, soft / step, 0 * shift, math.nan)
 
 
 def time_step(blade: ReducedBlade, spec: RunSpec) -> float:

@@ -11,8 +11,8 @@ find even places. More nodes give the reduced model more static modes of the tip
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import astuple, dataclass, field, replace
-from functools import partial
+from dataclasses import astuple, replace
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -53,39 +53,6 @@ class Model(NamedTuple):
     blade: ReducedBlade
     wear: Callable[[RunResult], np.ndarray]  # mean wear of a run, m, of one shape in all models
     change: Callable[[RunSpec], RunSpec] = lambda spec: spec
-
-
-@dataclass
-class Response:
-    """Response of `case` on an engine order by a model, whose runs are made when they are asked for."""
-
-    model: Model
-    config: Config
-    case: CoatingCase
-    order: float
-    runs: dict[float, RunResult] = field(default_factory=dict)  # by speed
-
-    def run(self, f_omega: float) -> RunResult:
-        """Return the run at `f_omega`."""
-        if f_omega not in self.runs:
-            spec = self.model.change(run_spec(self.config, self.case, f_omega))
-            self.runs[f_omega] = simulate(self.model.blade, spec)
-        return self.runs[f_omega]
-
-    def amplitude(self, f_omega: float) -> float:
-        """Amplitude on the engine order, m."""
-        return amplitude_on(self.order, self.run(f_omega), self.config.analysis)
-
-    def top(self, f_omega: float) -> float:
-        """Speed of the study at which the amplitude, rising from `f_omega` on, is greatest."""
-        grid = speeds(self.config)
-        index = int(np.argmin(np.abs(np.array(grid) - f_omega)))
-        while True:
-            neighbours = grid[max(index - 1, 0) : index + 2]
-            best = grid.index(max(neighbours, key=self.amplitude))
-            if best == index:
-                return grid[index]
-            index = best
 
 
 def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
@@ -133,11 +100,9 @@ def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd
     """
     rows = []
     for case, peak in listed(peaks):
-        start = float(peak.f_peak)
         for number, model in models.items():
-            response = Response(model, config, case, peak.order)
-            wear, speed = model.wear(response.run(start)), response.top(start)
-            amplitude = response.amplitude(speed)
+            run, speed, amplitude = _climb(model, config, case, peak)
+            wear = model.wear(run)
             if number == next(iter(models)):
                 own_wear, own_amplitude = wear, amplitude
             changes = (
@@ -147,9 +112,27 @@ def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd
             )
             *coating, _, variant = astuple(case)
             what = (*coating, peak.order, number)
-            rows.append((*what, speed, amplitude, *changes, response.run(start).status, variant))
+            rows.append((*what, speed, amplitude, *changes, run.status, variant))
     columns = ["casing", "E", "K", "theta", "order", column, *_COMPARED, "variant"]
     return pd.DataFrame(rows, columns=columns)
+
+
+def _climb(model: Model, config: Config, case: CoatingCase, peak: Any) -> tuple[RunResult, float, float]:
+    """Return the run at the speed of a peak; speed and amplitude (m) of the peak that rises from there."""
+
+    @cache
+    def run(f_omega: float) -> RunResult:
+        return simulate(model.blade, model.change(run_spec(config, case, f_omega)))
+
+    def amplitude(index: int) -> float:
+        return amplitude_on(peak.order, run(grid[index]), config.analysis)
+
+    grid, start = speeds(config), float(peak.f_peak)
+    index, highest = -1, int(np.argmin(np.abs(np.array(grid) - start)))
+    while highest != index:
+        index = highest
+        highest = max(range(max(index - 1, 0), min(index + 2, len(grid))), key=amplitude)
+    return run(start), grid[index], amplitude(index)
 
 
 def _table(rows: pd.DataFrame) -> pd.DataFrame:

@@ -23,7 +23,6 @@ from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import with_steps
 from bladerub.extras.verification import impact
 from bladerub.extras.verification.differences import amplitude_on
-from bladerub.settings.analysis import Analysis
 from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec, speeds
 from bladerub.study.paper import RIGID
@@ -75,23 +74,27 @@ def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFr
 
     `peaks` is a table ``peaks.csv``, of which the peaks of the rigid casing are looked at.
     """
-    rows: list[dict[str, Any]] = []
+    rows: list[list[Any]] = []
+    last = slice(-config.analysis.spectrum_revolutions, None)  # the revolutions of the study's spectra
     for f_omega, order, alternatives in _listed(config, peaks):
         spec, modes, study_amplitude = run_spec(config, RIGID, f_omega), modes_at(blade, f_omega), math.nan
         for alternative in alternatives:
             if (alternative.modes or 0) >= modes.omega.size:
                 continue
             outcome, steps = _simulate(blade, spec, modes, alternative)
-            measures = _measures(outcome, order, config.analysis)
-            study_amplitude = measures["amplitude"] if alternative == OWN else study_amplitude
-            n_modes = alternative.modes or modes.omega.size
+            amplitude = amplitude_on(order, outcome, config.analysis)
+            study_amplitude = amplitude if alternative == OWN else study_amplitude
             complete = alternative.treatment == "massless" or (
                 alternative.modes is None and alternative.treatment not in STIFFNESSES
             )
-            row = dict(
-                zip(COLUMNS, (f_omega, alternative.treatment, n_modes, steps, order, complete), strict=False)
+            revolutions = outcome.revolution_amplitude[last]
+            rows.append(
+                [
+                    *(f_omega, alternative.treatment, alternative.modes or modes.omega.size, steps, order),
+                    *(complete, amplitude, amplitude / study_amplitude - 1, revolutions.max()),
+                    *(np.median(revolutions), outcome.revolution_peak[last].max()),
+                ]
             )
-            rows.append(row | measures | {"amplitude_change": measures["amplitude"] / study_amplitude - 1})
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -125,14 +128,3 @@ def _simulate(
         first_modes = impact.first(modes, how.modes)
         rule = impact.moreau_jean(first_modes, damping, step, RESTITUTIONS[how.treatment])
     return impact.simulate(rule, blade, spec), steps
-
-
-def _measures(outcome: impact.Motion | run.RunResult, order: float, analysis: Analysis) -> dict[str, float]:
-    """Measure the last revolutions of a run, those of the study's spectra, m."""
-    last = analysis.spectrum_revolutions
-    return {
-        "amplitude": amplitude_on(order, outcome, analysis),
-        "largest_revolution": float(outcome.revolution_amplitude[-last:].max()),
-        "median_revolution": float(np.median(outcome.revolution_amplitude[-last:])),
-        "largest_displacement": float(outcome.revolution_peak[-last:].max()),
-    }
