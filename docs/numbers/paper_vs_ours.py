@@ -1,7 +1,5 @@
 """Numbers of docs/explanation/paper_vs_ours.md."""
 
-import pandas as pd
-
 from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, span, table
 from docs.numbers.claims import changes, claims, counts, variations
 
@@ -75,16 +73,14 @@ def _longer_peaks(peaks, longer):
         rows(study, casing="2nd", K=0.1, theta=0, order=4, E=[0.5, *_RIDGE[:-1]])["amplitude"]
         for study in (peaks, longer)
     ]
-    heights = pd.DataFrame(
-        [
-            [
-                f"θ = {theta:g}",
-                *(mm(peak(study, 2, 0.5, theta=theta)["amplitude"]) for study in (peaks, longer)),
-            ]
-            for theta in (0.0, 0.15)
-        ],
-        columns=["Y4 at (2, 0.5), mm", "20 revolutions", "60 revolutions"],
-    )
+    heights = [
+        {"Y4 at (2, 0.5), mm": f"θ = {theta:g}"}
+        | {
+            revolutions: mm(peak(study, 2, 0.5, theta=theta)["amplitude"])
+            for revolutions, study in (("20 revolutions", peaks), ("60 revolutions", longer))
+        }
+        for theta in (0.0, 0.15)
+    ]
     both = peaks.merge(longer, on=["casing", "E", "K", "theta", "order", "law"], suffixes=("", "_longer"))
     both["fall"] = both["f_peak"] - both["f_peak_longer"]
     ridge = both[(both["casing"] == "2nd") & (both["K"] == 0.5) & (both["theta"] == 0) & (both["order"] == 4)]
@@ -132,12 +128,8 @@ def _divergence(divergence, longer):
 def _shares(divergence, modulus):
     """Write the share of runs that diverge on the casing of two nodal diameters, by one modulus."""
     straight = rows(divergence, casing="2nd", theta=0, law="theta")
-    runs = straight.groupby(modulus)["runs"].sum()
-    divergent = (
-        rows(straight, divergent=True).groupby(modulus)["runs"].sum().reindex(runs.index, fill_value=0)
+    straight = straight.assign(divergent=straight["divergent"] * straight["runs"]).groupby(modulus)
+    shares = straight["divergent"].sum() / straight["runs"].sum()
+    return table(
+        [{modulus: "diverge, %"} | {f"{value:g}": percent(share, 1) for value, share in shares.items()}]
     )
-    shares = pd.DataFrame(
-        [[percent(share, 1) for share in divergent / runs]], columns=list(runs.index.map("{:g}".format))
-    )
-    shares.insert(0, modulus, "diverge, %")
-    return table(shares)
