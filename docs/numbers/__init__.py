@@ -9,7 +9,6 @@ table elsewhere in the repository. A text may be a whole table (`table`), alone 
 import importlib.util
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import pandas as pd
@@ -106,11 +105,6 @@ def decimals(digits: int) -> Callable[[float], str]:
     return lambda value: fixed(value, digits)
 
 
-def significant(value: float, digits: int = 3) -> str:
-    """Write a number with so many significant digits."""
-    return f"{value:.{digits}g}"
-
-
 def span(values: pd.Series, write: Callable[[float], str]) -> str:
     """Write the ends of a range of numbers."""
     return f"{write(values.min())} to {write(values.max())}"
@@ -122,18 +116,16 @@ def headings(*columns: str) -> dict[str, str]:
 
 
 def table(
-    rows: pd.DataFrame | Sequence[Mapping[str, Any]],
-    columns: Mapping[str, str | tuple[str, Callable[[Any], str]]] = MappingProxyType({}),
+    rows: pd.DataFrame | Mapping[str, Any] | Sequence[Mapping[str, Any]],
+    columns: Mapping[str, str | tuple[str, Callable[[Any], str]]] | None = None,
 ) -> str:
     """Write `rows` as a table of Markdown, with `columns`: the heading of each, and what writes its values.
 
     Without `columns` all are written as they are. What is missing leaves its cell empty.
     """
     rows, text = pd.DataFrame(rows), pd.DataFrame()
-    for column in columns or rows.columns:
-        heading, write = columns.get(column, column), str
-        if isinstance(heading, tuple):
-            heading, write = heading
+    for column, what in (columns or {name: name for name in rows.columns}).items():
+        heading, write = what if isinstance(what, tuple) else (what, str)
         text[heading] = ["" if pd.isna(value) else write(value) for value in rows[column]]
     lines = [list(map(str, text.columns)), ["---"] * len(text.columns), *text.to_numpy().tolist()]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)

@@ -13,14 +13,12 @@ def claims(findings: pd.DataFrame, *groups: str) -> str:
     """Write the parts of the claims `groups` (``C2``) as a table."""
     chosen = findings[findings["id"].str.extract(r"(C\d+)", expand=False).isin(groups)]
     return table(
-        pd.DataFrame(
-            {
-                "part": chosen["id"],
-                "the paper": _statements(chosen),
-                "here": [measured(part) for _, part in chosen.iterrows()],
-                "holds": chosen["holds"],
-            }
-        )
+        {
+            "part": chosen["id"],
+            "the paper": _statements(chosen),
+            "here": [measured(part) for _, part in chosen.iterrows()],
+            "holds": chosen["holds"],
+        }
     )
 
 
@@ -45,7 +43,7 @@ def changes(
     for heading, study in zip(headings, (first, second), strict=True):
         parts = study.set_index("id").loc[both["id"]]
         answers[heading] = [f"{measured(part)}: {part['holds']}" for _, part in parts.iterrows()]
-    return table(pd.DataFrame({"part": both["id"], "the paper": _statements(both)} | answers))
+    return table({"part": both["id"], "the paper": _statements(both)} | answers)
 
 
 def variations(margins: pd.DataFrame) -> str:

@@ -1,6 +1,6 @@
 """Numbers of studies/variations/README.md."""
 
-from docs.numbers import decimals, fixed, headings, percent, rows, significant, table
+from docs.numbers import decimals, fixed, headings, percent, rows, table
 
 _SPEEDS = ["f4_soft", "f6_soft", "f6_tilted", "f6_straight"]
 
@@ -134,5 +134,5 @@ def _values(ranges, candidates):
     factors = ranges.merge(values).replace({"factor": {"_": " "}, "unit": {"^1$": ""}}, regex=True)
     numbers = ("lowest", "highest", "own", "first", "second")
     return table(
-        factors, {"factor": "factor", "unit": "unit"} | {name: (name, significant) for name in numbers}
+        factors, {"factor": "factor", "unit": "unit"} | {name: (name, "{:.3g}".format) for name in numbers}
     )
