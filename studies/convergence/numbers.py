@@ -12,11 +12,15 @@ _MEASURES = {"wear_l2": "wear", "peak": "spectral peak", "revolution_peak": "rev
 
 def numbers(tables):
     """Return the text for each name on the page."""
+    bars, nodes = tables["finer_bars"], tables["more_nodes"]
     return (
         _steps(tables["steps"])
         | _accuracy(tables["accuracy"])
-        | _elements(tables["finer_bars"])
-        | _nodes(tables["more_nodes"])
+        | {"finer_elements": refinement(bars, "elements")}
+        | _greatest(rows(bars, elements=8000), "elements")
+        | {"more_nodes": refinement(nodes, "interface_nodes")}
+        | _greatest(rows(nodes, interface_nodes=24), "nodes")
+        | {f"cost_{n}": cost(nodes, n) for n in (16, 24)}
         | _impact(tables["rigid_convergence"])
     )
 
@@ -87,23 +91,10 @@ def _accuracy(accuracy):
     }
 
 
-def _elements(bars):
-    soft = greatest_changes(
-        bars[(bars["elements"] == 8000) & (bars["status"] == "completed") & (bars["E"] < 20)]
-    )
-    changes = {f"{name}_by_elements": percent(change, 1) for name, change in soft.items()}
-    return {"finer_elements": refinement(bars, "elements")} | changes
-
-
-def _nodes(nodes):
-    soft = greatest_changes(nodes[(nodes["interface_nodes"] == 24) & (nodes["E"] < 20)])
-    changes = {f"{name}_by_nodes": percent(change, 1) for name, change in soft.items()}
-    return {
-        "more_nodes": refinement(nodes, "interface_nodes"),
-        **changes,
-        "cost_16": cost(nodes, 16),
-        "cost_24": cost(nodes, 24),
-    }
+def _greatest(finest, by):
+    """Write the greatest changes of soft coatings whose runs end within the limit of displacement."""
+    soft = greatest_changes(rows(finest[finest["E"] < 20], status="completed"))
+    return {f"{name}_by_{by}": percent(change, 1) for name, change in soft.items()}
 
 
 def _impact(impact):
