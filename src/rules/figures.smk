@@ -61,7 +61,7 @@ def part_of_run(case, part):
 
 
 class Figure(NamedTuple):
-    """A figure, or those in `params["figures"]`, and its job."""
+    """The job of one figure, or of those in ``params["figures"]``."""
 
     category: str | None  # where the report shows it
     code: list[str]  # modules behind it
@@ -83,10 +83,6 @@ def of_casing(shape, category=None, is_planned=False):
 def of_map(kind, params, map, category=None, is_planned=False):
     inputs = BLADE | {"map": map}
     return Figure(category, [f"plots.{kind}"], inputs, params, is_planned, with_data=False, script=kind)
-
-
-def wear_map_of(case, category):
-    return of_map("wear_map", SCALED, map_of(case), category, in_study(case))
 
 
 def spectrum_of(case, category):
@@ -121,7 +117,7 @@ JOBS = {
         in_study(STRAIGHT),
     ),
     "fig05_casing": of_casing(part_of_run(WORN, "casing"), "Model", in_study(WORN)),
-    "fig06_wear_map": wear_map_of(WORN, "Wear and spectra"),
+    "fig06_wear_map": of_map("wear_map", SCALED, map_of(WORN), "Wear and spectra", in_study(WORN)),
     "fig07_spectrum_2nd5nd": spectrum_of(WORN, "Wear and spectra"),
     "fig08_spectrum_soft": spectrum_of(SOFT, "Wear and spectra"),
     "fig09_spectrum_critical": spectrum_of(CRITICAL, "Wear and spectra"),

@@ -53,7 +53,7 @@ def described(**tables):
 
 
 def drawn(name, category=None, with_data=False):
-    """The files of a figure, in the report if it has a category; histories at further speeds have one caption."""
+    """The files of a figure, in the report if it has a category; further histories have one caption."""
     png, caption = f"{PLOTS}/{name}.png", "history" if name.startswith("history_") else name
     files = {"png": shown(png, caption, category) if category else png, "pdf": f"{PLOTS}/{name}.pdf"}
     return files | (described(data=f"{PLOTS}/{name}.csv") if with_data else {})
