@@ -7,6 +7,20 @@ from bladerub.study.grid import CoatingCase, keeps_history, modulus_unit, run_sp
 from bladerub.study.orders import peak_orders, peak_settings, used_casings
 from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, STRAIGHT_SPEED, TILTED, TILTED_SPEED, WORN
 
+
+def in_study(*cases):
+    return {case.name for case in cases} <= set(COATINGS)
+
+
+def map_of(case):
+    return f"{RESULTS}/maps/{case.name}.h5"
+
+
+def part_of_run(case, part):
+    """One part of what is simulated on a coating; looked up only for a figure that is planned."""
+    return lambda wildcards: asdict(getattr(run_spec(STUDY, case, 0.0), part))
+
+
 MODULI = "casing == '2nd' and theta == 0 and law == 'theta'"  # the coatings of the histograms
 WITH_MODULI = any(
     case.casing == "2nd" and case.theta == 0 and case.law == "theta" and not case.variant
@@ -25,17 +39,17 @@ SPECTRUM = SCALED | {key: config["figures"][key] for key in ("max_frequency", "a
 
 # Speeds at which the displacement of both is kept: the paper's two, and those where this blade has its peaks
 BOTH = [
-    f
-    for f in speeds(STUDY)
-    if {STRAIGHT, TILTED} <= set(coating_cases(STUDY))
-    and all(keeps_history(STUDY, case, f) for case in (STRAIGHT, TILTED))
+    f_omega
+    for f_omega in speeds(STUDY)
+    if in_study(STRAIGHT, TILTED) and all(keeps_history(STUDY, case, f_omega) for case in (STRAIGHT, TILTED))
 ]
-OWN = [f_omega for f_omega in BOTH if f_omega not in (TILTED_SPEED, STRAIGHT_SPEED)]
-# Runs of each, which are next to the manifests: Figs. 17 and 18, and the same at speeds of our own
+FIGURES_OF_SPEED = {TILTED_SPEED: "fig17_history_0190", STRAIGHT_SPEED: "fig18_history_0197"}
+OWN = [f_omega for f_omega in BOTH if f_omega not in FIGURES_OF_SPEED]
+# Runs of each, which are next to the manifests: those of the paper, and the same at speeds of our own
 HISTORIES = {
-    {TILTED_SPEED: "fig17_history_0190", STRAIGHT_SPEED: "fig18_history_0197"}.get(
-        f_omega, f"history_{speed_name(f_omega)}"
-    ): [f"{RESULTS}/runs/{case.name}/{speed_name(f_omega)}.h5" for case in (STRAIGHT, TILTED)]
+    FIGURES_OF_SPEED.get(f_omega, f"history_{speed_name(f_omega)}"): [
+        f"{RESULTS}/runs/{case.name}/{speed_name(f_omega)}.h5" for case in (STRAIGHT, TILTED)
+    ]
     for f_omega in BOTH
 }
 # All from one table, so that one job draws them: quantity and engine order of each
@@ -45,19 +59,6 @@ HISTOGRAMS = {
     "fig13_Y6": ("amplitude", 6),
     "fig14_f6": ("f_peak", 6),
 }
-
-
-def in_study(*cases):
-    return {case.name for case in cases} <= set(COATINGS)
-
-
-def map_of(case):
-    return f"{RESULTS}/maps/{case.name}.h5"
-
-
-def part_of_run(case, part):
-    """One part of what is simulated on a coating; looked up only for a figure that is planned."""
-    return lambda wildcards: asdict(getattr(run_spec(STUDY, case, 0.0), part))
 
 
 class Figure(NamedTuple):
