@@ -107,16 +107,20 @@ def _added_by(place: str) -> str:
 def _plugins() -> Iterator[Any]:
     for path in sorted(EXTRAS.glob("*/plugin.py")):
         plugin = import_module(f"bladerub.extras.{path.parent.name}.plugin")
-        if not all((EXTRAS / name).is_dir() for name in getattr(plugin, "NEEDS", ())):
-            continue
-        for kind in filter(str.isupper, vars(plugin)):
-            where = f"{plugin.__file__}: {kind}"
-            if _KINDS and kind not in _KINDS:
-                from difflib import get_close_matches
+        if all((EXTRAS / name).is_dir() for name in getattr(plugin, "NEEDS", ())):
+            _check(plugin)
+            yield plugin
 
-                near = get_close_matches(kind, _KINDS, 1)
-                hint = f"did you mean {near[0]}?" if near else f"must be one of {', '.join(_KINDS)}"
-                raise MissingPart(f"{where}: unknown, {hint}")
-            if kind != "NEEDS" and not isinstance(getattr(plugin, kind), dict):
-                raise MissingPart(f"{where}: must be a dictionary of names, each with its place")
-        yield plugin
+
+def _check(plugin: Any) -> None:
+    """Raise `MissingPart` where a ``plugin.py`` has an unknown kind, or one that is no dictionary."""
+    for kind in filter(str.isupper, vars(plugin)):
+        setting = f"{plugin.__file__}: {kind}"
+        if _KINDS and kind not in _KINDS:
+            from difflib import get_close_matches
+
+            close = get_close_matches(kind, _KINDS, 1)
+            hint = f"did you mean {close[0]}?" if close else f"must be one of {', '.join(_KINDS)}"
+            raise MissingPart(f"{setting}: unknown, {hint}")
+        if kind != "NEEDS" and not isinstance(getattr(plugin, kind), dict):
+            raise MissingPart(f"{setting}: must be a dictionary of names, each with its place")

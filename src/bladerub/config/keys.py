@@ -17,7 +17,8 @@ NUMBERS = ("a number", "a whole number")
 _FEWEST, _MOST_HZ = 10.0, 1000.0  # of a plain number that is a speed in rpm or Hz
 _WORDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "at most"}
 _DIGITS = 12  # of a value in units of a reference, which is itself known to fewer
-_SAID = (*_WORDS, "min_length", "max_length", "pattern", "form", "group")
+_CONSTRAINTS = (*_WORDS, "min_length", "max_length", "pattern", "form", "group")
+"""Attributes of the marks on a type that say what is allowed."""
 
 
 @dataclass(frozen=True)
@@ -147,17 +148,19 @@ def key_of(kind: Any) -> Key:
         (kind,) = (part for part in get_args(annotation) if part is not NoneType)
         info = FieldInfo.from_annotation(kind)
         annotation, marks, text = info.annotation, [*info.metadata, *marks], text or info.description
-    said = {name: getattr(mark, name) for mark in marks for name in _SAID if hasattr(mark, name)}
+    constraints = {
+        name: getattr(mark, name) for mark in marks for name in _CONSTRAINTS if hasattr(mark, name)
+    }
     key = Key(
         "a group of keys",
         description=" ".join((text or "").split()),
-        bounds={name: bound for name, bound in said.items() if name in _WORDS},
-        sizes=(said.get("min_length", 0), said.get("max_length")),
+        bounds={name: bound for name, bound in constraints.items() if name in _WORDS},
+        sizes=(constraints.get("min_length", 0), constraints.get("max_length")),
         unit=next((mark for mark in marks if isinstance(mark, Unit)), Unit("1")),
-        form=said.get("form", ""),
-        pattern=said.get("pattern", ""),
+        form=constraints.get("form", ""),
+        pattern=constraints.get("pattern", ""),
         limits=tuple(mark for mark in marks if isinstance(mark, Limit)),
-        one_of=said.get("group", ""),
+        one_of=constraints.get("group", ""),
         is_ascending=ASCENDING in marks,
         is_unique=UNIQUE in marks,
     )

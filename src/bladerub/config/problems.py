@@ -2,7 +2,7 @@
 
 import operator
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import cache
@@ -128,8 +128,10 @@ def _wrong(value: Any, key: Key) -> str:
 def _compared(config: Mapping[str, Any], key: Key, value: Any, parts: tuple) -> Iterator[str]:
     """Compare numbers and names in `value` with what other keys of the config say."""
     differences = []
-    if key.one_of and value not in (names := config.get(key.one_of, {value})):
-        differences.append(f"one of the {key.one_of}, {', '.join(names)}")
+    if key.one_of:
+        names = config.get(key.one_of, {value})
+        if value not in names:
+            differences.append(f"one of the {key.one_of}, {', '.join(names)}")
     for limit in key.limits:
         bound: Any = config
         for part in limit.key.split("."):
@@ -137,8 +139,13 @@ def _compared(config: Mapping[str, Any], key: Key, value: Any, parts: tuple) -> 
         if is_number(bound) and not _RELATIONS[limit.relation](value, bound / limit.divisor):
             reason = f", {limit.reason}" if limit.reason else ""
             differences.append(f"{limit} = {bound / limit.divisor:g}{reason}")
-    yield from (f"{key_path(parts)} = {format_value(value)}: must be {right}" for right in differences)
-    is_list, is_group = isinstance(value, list), isinstance(value, Mapping)
-    for part, entry in enumerate(value) if is_list else value.items() if is_group else ():
+    for difference in differences:
+        yield f"{key_path(parts)} = {format_value(value)}: must be {difference}"
+    entries: Iterable[tuple[Any, Any]] = ()
+    if isinstance(value, Mapping):
+        entries = value.items()
+    elif isinstance(value, list):
+        entries = enumerate(value)
+    for part, entry in entries:
         if inner := key.inner(part):
             yield from _compared(config, inner, entry, (*parts, part))

@@ -62,7 +62,8 @@ def read_with_notes(
 
 def vary(config: "Config", *variations: Located) -> Located:
     """Lay variations of a plan over a config, without a check."""
-    return reduce(Located.merged, (part for part in variations if part.content), Located.of(config.plain()))
+    parts = (part for part in variations if part.content is not None)
+    return reduce(Located.merged, parts, Located.of(config.plain()))
 
 
 def validate(config: Located | Mapping[str, Any], variation: str = "") -> "Config":
