@@ -24,7 +24,10 @@ ARCHIVE = ".archive"
 
 
 def digest(determinants: Any) -> str:
-    """Digest what JSON can express, whatever the order of keys; a dataclass is the mapping of its fields."""
+    """Digest what JSON can express, as SHA-256 in hexadecimal; the order of keys does not count.
+
+    A dataclass counts as the mapping of its fields.
+    """
     return hashlib.sha256(json.dumps(determinants, sort_keys=True, default=vars).encode()).hexdigest()
 
 

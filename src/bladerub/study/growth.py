@@ -73,14 +73,16 @@ def growth(amplitude: np.ndarray, settings: Divergence) -> Growth:
     if window.size and not window.any():
         return Growth(0.0, 0.0, 0.0)
     number = np.flatnonzero(window > 0)
-    fit = number - float(window.size - 1), np.log(window[number]), settings.confidence
-    low, slope, high = (float(np.expm1(bound[1])) for bound in _parameters(1, *fit))
+    points = number - float(window.size - 1), np.log(window[number])  # time and amplitude
+    line = _parameters(1, *points, settings.confidence)
+    low, slope, high = (float(np.expm1(coefficients[1])) for coefficients in line)
     threshold, before = settings.growth, record[: -settings.revolutions].max(initial=0.0)
     outgrown = window.max(initial=0.0) > before * (1 + threshold) ** settings.revolutions
     if not (low > threshold and outgrown):
         return Growth(slope, low, high)
-    lowest, _, highest = _parameters(2, *fit)
-    levels_off = bool(highest[2] < 0 and np.expm1(lowest[1]) <= threshold)
+    lowest, _, highest = _parameters(2, *points, settings.confidence)
+    is_bent = highest[2] < 0
+    levels_off = bool(is_bent and np.expm1(lowest[1]) <= threshold)
     return Growth(slope, low, high, True, levels_off)
 
 
@@ -89,8 +91,9 @@ def _parameters(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fit a polynomial in `time`: coefficients from the constant up, between lower and upper bounds.
 
-    Time is 0 at the last revolution, so the second coefficient is the slope there. The bounds are those of
-    confidence, NaN where no revolution is left to show the scatter; with fewer all is NaN.
+    Returns lower bounds, coefficients and upper bounds. Time is 0 at the last revolution, so the second
+    coefficient is the slope there. The bounds are those of the interval of `confidence`, NaN where no
+    revolution is left to show the scatter; with fewer revolutions than coefficients, all is NaN.
     """
     missing = np.full(degree + 1, np.nan)
     freedom = time.size - degree - 1

@@ -63,7 +63,7 @@ def compute_missing(
     folder = Path(folder)
     job = _Job(config, plan, blade, blade_digest, report, threads, folder)
     waiting = f"another job is at work in {folder}: waiting for its end"
-    with lock.held(folder / ".lock", lambda: report(waiting)):
+    with lock.held(folder / ".lock", lambda: report(waiting)):  # an empty file, locked by the job at work
         job.complete(plan.runs)
         names = {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"}
         stored = [read_run(folder / run.file, *names) for run in plan.runs]
@@ -154,8 +154,10 @@ class _Job:
             entry = self.entry(run)
             entry.make_room()
             write_run(entry.path, stored, origin)
-            total += run.file not in costs
-            cost_done += costs.get(run.file, 0.0)
+            if run.file in costs:
+                cost_done += costs[run.file]
+            else:  # a run that goes on
+                total += 1
             seconds_left = (time.monotonic() - start) * max(sum(costs.values()) / cost_done - 1, 0.0)
             status = stored.attributes["status"]
             self.report(RunDone(number, total, run.file, status, seconds, seconds_left))
