@@ -37,11 +37,12 @@ def speed_law(fits: Sequence, f_max: float) -> tuple:
     """
     if len(fits) == 3:
         at_rest, at_half, at_max = fits
+        k0 = at_rest  # eq. (3)
         k1 = (16 * at_half - at_max - 15 * at_rest) / (3 * f_max**2)  # eq. (3)
         # eq. (3) is misprinted there: the factor 3 / (4 f_max^4) of the paper does not return K(f_max / 2)
         # and K(f_max); its reciprocal in the numbers, 4 / (3 f_max^4), does.
         k2 = 4 / (3 * f_max**4) * (at_max - 4 * at_half + 3 * at_rest)  # eq. (3), corrected
-        return at_rest, k1, k2
+        return k0, k1, k2
     squares = np.square(fit_speeds(1.0, len(fits)))
     shares = np.linalg.inv(np.vander(squares, increasing=True))  # of each fit in each coefficient
     return tuple(

@@ -1,4 +1,4 @@
-"""Decks of Abaqus and CalculiX as blocks: a keyword with its parameters, and the lines below it.
+"""Decks of Abaqus and CalculiX as blocks, a keyword with its parameters and the lines below; their material.
 
 Comments are left out, files of ``*INCLUDE`` and of the parameter ``INPUT`` are read where they are named, as
 seen from the folder of the deck. Keywords and names of parameters are in capitals; a keyword line that ends

@@ -153,10 +153,11 @@ class _Model:
         sets.add(name, [], in_part, block.place)
         for line in block.lines:
             numbers = _range(line) if "GENERATE" in parameters else _members(line, sets)
-            absent = [number for number in numbers if number not in members]
-            if absent and "GENERATE" not in parameters:
-                raise ValueError(f"{line.place}: {absent[0]} of the set {name} is not there")
-            sets.add(name, filter(members.__contains__, numbers), in_part, line.place)
+            present = [number for number in numbers if number in members]
+            if len(present) < len(numbers) and "GENERATE" not in parameters:
+                absent = next(number for number in numbers if number not in members)
+                raise ValueError(f"{line.place}: {absent} of the set {name} is not there")
+            sets.add(name, present, in_part, line.place)
 
     def _add_surface(self, block: Block, in_part: bool) -> None:
         """Add the nodes of a surface as a set of nodes, unless one has its name."""

@@ -24,6 +24,7 @@ TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other fi
 _OF_FRAME = tuple(entry.name for entry in fields(Frame))
 _OF_MESHES, _OF_TABLES = ("root_set", "tip_set"), ("angle_unit",)
 _KEYS = {"matrices": ("matrix_units", "omega_max"), "file": (*_OF_MESHES, *_OF_TABLES)}
+"""Keys that go with a place, beside ``tip_cone`` and those of the frame."""
 
 
 def path(source: Source) -> Path:
@@ -42,7 +43,11 @@ def is_table(source: Source) -> bool:
 
 
 def check(source: Source) -> None:
-    """Check that the keys of a source go together; a ValueError begins with the key of what does not."""
+    """Check that the keys of a source go together.
+
+    A ValueError begins with the key if neither ``file`` nor ``matrices`` is there, of what does not go with
+    them or with this kind of file, and of a frame that cannot be.
+    """
     keys = source.plain()
     place = next((key for key in _KEYS if key in keys), None)
     if place is None:

@@ -78,7 +78,7 @@ def crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> t
 class Interface(NamedTuple):
     """Interface nodes of a tip."""
 
-    nodes: np.ndarray  # (8,), leading to trailing edge
+    nodes: np.ndarray  # (n_nodes,), leading to trailing edge
     chord: float  # length of the camber line, m
     offset: float  # largest distance of a node from its place on the camber line, m
 

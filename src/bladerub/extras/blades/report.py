@@ -203,12 +203,14 @@ def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
         radii = f"from {1e3 * root:.3g} to {1e3 * tip:.3g} mm from the engine axis"
         yield f"it reaches {radii}: are all lengths in one unit, and is the origin on the engine axis?"
     fastest, nominal = figures["f_omega_max"], figures["nominal_speed"] or 0.0
-    for turns, state, key in (  # a second
+    for frequency, state, doubt in (  # of rotation, Hz
         (figures["f1_hz"] * fastest, f"reduction.f_omega_max = {fastest:g}", "radius"),
         (nominal / 60, f"{nominal:g} 1/min with a radius of {1e3 * tip:.3g} mm", "unit"),
     ):
-        if (speed := 2 * np.pi * turns * tip) > LARGEST_TIP_SPEED:
-            yield f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears: is its {key} right?"
+        speed = 2 * np.pi * frequency * tip
+        if speed > LARGEST_TIP_SPEED:
+            cause = f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears"
+            yield f"{cause}: is its {doubt} right?"
 
 
 def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:

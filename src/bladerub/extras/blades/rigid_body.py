@@ -144,14 +144,16 @@ def _misplaced(stiffness, pairs, points, free, bad, rows) -> str | None:
     x_turn, y_turn, z_turn = -spsolve(block, (stiffness @ motion)[coordinates]).T.reshape(3, -1, 3)
     middle = points.mean(axis=0)
     moved = points.copy()
-    moved[inner] = place = middle + np.stack([-y_turn[:, 2], -z_turn[:, 0], -x_turn[:, 1]], axis=1)
+    place = middle + np.stack([-y_turn[:, 2], -z_turn[:, 0], -x_turn[:, 1]], axis=1)
+    moved[inner] = place
     if (free & (_turned(stiffness, pairs, moved) > _TURNED)).any():
         return None
     tolerance = _APART * _reach(pairs, points)[inner]
     wrong = np.linalg.norm(place - points[inner], axis=1) > tolerance
     to_listed = cKDTree(points[inner[wrong]]).query(place[wrong])[0]
-    is_new = (to_listed > tolerance[wrong]).any()
-    cure = "in another place" if is_new else "exchanged" if wrong.sum() == 2 else "in another order"
+    cure = "exchanged" if wrong.sum() == 2 else "in another order"
+    if (to_listed > tolerance[wrong]).any():
+        cure = "in another place"
     return f"{_listed(rows[inner[wrong]])}: must be {cure}"
 
 

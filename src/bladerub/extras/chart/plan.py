@@ -32,7 +32,7 @@ RUNS_PER_HALVING = 4.2
 """Runs of a coating each time that the search halves the intervals around its maxima (61 of the study)."""
 
 _FARTHER = 2
-_JOBS = 9  # as many as take as long as what is beside the columns: tables and figures
+_JOBS = 9  # that would take as long as all beside the columns: tables and figures
 _JOBS_IN_TURN = 3  # of these, each after the one before
 _FEWEST = 2  # moduli of either kind: a chart is between four coatings
 

@@ -86,7 +86,7 @@ _VERDICTS = {
 _HATCHES = {"divergent": "//", "unbounded": "xx"}
 _FLOOR = 1e-3
 """Lowest amplitude that is drawn, mm: below it a vibration has died out."""
-_WHY = {True: {"color": DARK, "linewidth": 0.7}, False: {"color": GREY, "linewidth": 0.5}}
+_GROWTH = {True: {"color": DARK, "linewidth": 0.7}, False: {"color": GREY, "linewidth": 0.5}}
 
 
 @styled
@@ -107,7 +107,7 @@ def _draw_growth(axes: Axes, coatings: Sequence[LongRuns]) -> None:
         for why, amplitude in zip(long.why, long.revolution_amplitude, strict=True):
             grows = why == "grows"
             number, label = np.arange(1, amplitude.size + 1), labels.pop(grows, "_more")
-            axes.plot(number, 1e3 * amplitude, label=label, zorder=2 + grows, **_WHY[grows])
+            axes.plot(number, 1e3 * amplitude, label=label, zorder=2 + grows, **_GROWTH[grows])
     axes.set(
         xscale="log",
         yscale="log",

@@ -74,7 +74,7 @@ def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFr
 
     `peaks` is a table ``peaks.csv``, of which the peaks of the rigid casing are looked at.
     """
-    rows: list[list[Any]] = []
+    rows: list[dict[str, Any]] = []
     last = slice(-config.analysis.spectrum_revolutions, None)  # the revolutions of the study's spectra
     for f_omega, order, alternatives in _listed(config, peaks):
         spec, modes, study_amplitude = run_spec(config, RIGID, f_omega), modes_at(blade, f_omega), math.nan
@@ -89,11 +89,19 @@ def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFr
             )
             revolutions = outcome.revolution_amplitude[last]
             rows.append(
-                [
-                    *(f_omega, alternative.treatment, alternative.modes or modes.omega.size, steps, order),
-                    *(complete, amplitude, amplitude / study_amplitude - 1, revolutions.max()),
-                    *(np.median(revolutions), outcome.revolution_peak[last].max()),
-                ]
+                {
+                    "f_omega": f_omega,
+                    "treatment": alternative.treatment,
+                    "modes": alternative.modes or modes.omega.size,
+                    "steps": steps,
+                    "order": order,
+                    "complete": complete,
+                    "amplitude": amplitude,
+                    "amplitude_change": amplitude / study_amplitude - 1,
+                    "largest_revolution": revolutions.max(),
+                    "median_revolution": np.median(revolutions),
+                    "largest_displacement": outcome.revolution_peak[last].max(),
+                }
             )
     return pd.DataFrame(rows, columns=COLUMNS)
 
