@@ -127,7 +127,7 @@ def _fields(record, kind, llvm_type):
 
 
 def _rows(builder, address, n, kind=VECTOR):
-    """Load what is `n` times a vector apart."""
+    """Load `n` vectors, or numbers, that begin a vector apart."""
     return [builder.load(place_at(builder, address, LANES * row, kind), align=8) for row in range(n)]
 
 
@@ -163,20 +163,20 @@ _several = types.UniTuple(vector, WIDTH)
 
 @instruction(_several)
 def no_sums(builder):
-    """Vectors of zeros."""
+    """`WIDTH` vectors of zeros."""
     return cgutils.pack_array(builder, [ir.Constant(VECTOR, [0.0] * LANES)] * WIDTH)
 
 
 @instruction(_several, types.intp)
 def broadcast_each(builder, address):
-    """Read numbers and put each in every lane of a vector."""
+    """Read `WIDTH` numbers and put each in every lane of a vector."""
     numbers = (builder.load(place_at(builder, address, i, DOUBLE)) for i in range(WIDTH))
     return cgutils.pack_array(builder, [spread(builder, number) for number in numbers])
 
 
 @instruction(vector, types.intp, _several)
 def sum_of_products(builder, rows, factors):
-    """Sum up the products of rows of an array and vectors."""
+    """Sum up the products of `WIDTH` rows of an array and as many vectors."""
     products = list(zip(_rows(builder, rows, WIDTH), cgutils.unpack_tuple(builder, factors), strict=True))
     total = _in_halves(builder, products[: 2 * LANES])
     if further := products[2 * LANES :]:

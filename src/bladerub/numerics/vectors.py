@@ -287,7 +287,10 @@ def _paired(builder, width, a, b):
 
 @intrinsic
 def lane_sums(context, record, vectors):
-    """Put for each field of the named tuple `record` the sums of all lanes of so many vectors into one."""
+    """Sum up the lanes of each of many vectors: the first N sums are the first vector of a named tuple.
+
+    N is the number of lanes, `record` the type of the tuple, which has a vector for each N of the `vectors`.
+    """
     result = types.NamedUniTuple(vector, vectors.count // LANES, record.instance_class)
 
     def generate(context, builder, signature, arguments):

@@ -50,7 +50,7 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
         for j in range(LANES):
             compliance, guess = _self_compliance(modal, stator, state, j), read(normal_force, j)
-            further = read(u, FURTHER + j)
+            further = read(u, FURTHER + j)  # stays as it is while the search looks at this node
             store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
             free_approach = read(approaches, j) + compliance * guess
             if stator.is_rigid:
@@ -78,7 +78,7 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
                 write(force, k, read(turned, k))
                 for i in range(0, WIDTH, LANES):
                     add_to(u, i, load(modal.compliance, WIDTH * k + i) * by)
-            change = max(change, edge(tip) * abs(read(u, FURTHER + j) - further))
+            change = max(change, edge(tip) * abs(read(u, FURTHER + j) - further))  # of the edge, m
         if change <= tolerance:
             return converged
     return False
