@@ -124,8 +124,8 @@ def table(
     Without `columns` all are written as they are. What is missing leaves its cell empty.
     """
     rows, text = pd.DataFrame(rows), pd.DataFrame()
-    for column, what in (columns or {name: name for name in rows.columns}).items():
-        heading, write = what if isinstance(what, tuple) else (what, str)
+    for column, heading in (columns or {name: name for name in rows.columns}).items():
+        heading, write = heading if isinstance(heading, tuple) else (heading, str)
         text[heading] = ["" if pd.isna(value) else write(value) for value in rows[column]]
     lines = [list(map(str, text.columns)), ["---"] * len(text.columns), *text.to_numpy().tolist()]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)

@@ -95,7 +95,7 @@ rule rotor37:
             "plots.spectrum",
             "plots.wear_map",
         ),
-        independent=rules.rotor37_independent.output.table,
+        independent=rules.rotor37_independent.output.table,  # a table beside those of this job
     output:
         **described(
             history=f"{ROTOR37}/direct_history.csv",

@@ -81,8 +81,9 @@ def import_blade(options: argparse.Namespace) -> None:
 
     from bladerub.extras.blades.similarity import contact_scale, tip_stiffness
 
+    read_blade = _read_matrices if kind == "matrices" else _read_mesh
     with inputs.refused(ValueError):
-        figures, reduced = (_read_matrices if kind == "matrices" else _read_mesh)(config, nominal)
+        figures, reduced = read_blade(config, nominal)
     figures["tip_stiffness"] = tip_stiffness(reduced)
     study = configuration.read(base_config())
     blade = {"length": reduced.length, "source": entry}

@@ -79,6 +79,7 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
             stiffness[f_omega] = _of_free(matrix_folder.read_matrix(names[name]), free, unit, frame.turn)
     stiffness_rest, stiffness_half, stiffness_max = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
 
+    # the matrices are those of one body, which is held
     with naming(names[MASS], names[FIT[0]]):
         rigid_body.check_joined(mass, stiffness_rest)
     with naming(names[MASS]):
@@ -109,12 +110,14 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
             frequencies[f_omega], _ = _modes(stiffness[f_omega], mass, n_modes)
             if frequencies[f_omega][0] <= 0:  # so near to zero that few of Lanczos's steps do not show it
                 raise ValueError("is not positive definite: a mode of the blade is unstable at this speed")
-    f_omega = (source.omega_max or 0.0) / (2 * np.pi * frequency[0])
-    if f_omega and abs(f_omega / f_max - 1) > OMEGA_TOLERANCE:
-        raise BadInput(
-            f"{folder}: omega_max = {source.omega_max:g} rad/s is {f_omega:.6g} of the blade's first "
-            f"frequency, {frequency[0]:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
-        )
+    if source.omega_max is not None:
+        fastest = source.omega_max / (2 * np.pi * frequency[0])
+        if abs(fastest / f_max - 1) > OMEGA_TOLERANCE:
+            raise BadInput(
+                f"{folder}: omega_max = {source.omega_max:g} rad/s is {fastest:.6g} of the blade's first "
+                f"frequency, {frequency[0]:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
+            )
+
     change = sparse.linalg.norm(stiffness_max - stiffness_rest)
     return ImportedMatrices(
         DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),

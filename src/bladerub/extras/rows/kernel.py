@@ -202,6 +202,6 @@ def _couple(coupling, kinds, rows, work, begins, element):
             write(state.q, modal.n + k, shifted)
             work[b] += coupling.kinetic[k, b] * ((present - shifted) ** 2 - (present - before) ** 2)
             work[b] += coupling.elastic[k, b] * present * change
-            of_mode = address_of(modal.tip, WIDTH * (k - k % LANES) + k % LANES)
+            shape = address_of(modal.tip, WIDTH * (k - k % LANES) + k % LANES)  # of mode k, at the tip
             for row in range(WIDTH):
-                add_to_number(tip_before, row, read(of_mode, LANES * row) * change)
+                add_to_number(tip_before, row, read(shape, LANES * row) * change)
