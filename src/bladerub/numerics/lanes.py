@@ -2,7 +2,8 @@
 
 Every vector of the time loop has a lane for each interface node, and its length is a constant of the compiled
 code. So the modules that have it are made once for each length that is asked for
-(`bladerub.contact.laws.module_for`): the same source, imported again while `LANES` is another.
+(`bladerub.contact.laws.module_for`): the same source, imported again while `LANES` is another. The number of
+coordinates of each node is such a constant, too.
 """
 
 USUAL = 8
@@ -10,7 +11,7 @@ USUAL = 8
 LANES = USUAL
 """Doubles in a vector of the module that is being imported."""
 COORDINATES = 2
-"""Of each node there: radial, tangential, and a further one where the tip has a further motion."""
+"""Coordinates of each node in that module: two, and a third where the tip has a further motion."""
 INSTANCE = f"{USUAL}"
 """Name of what is compiled by it: of these vectors, and of what is not the paper's."""
 
