@@ -7,9 +7,9 @@ by it without running the law. The time loop is compiled with the law in it
 """
 
 import ast
+import dis
 import hashlib
 import math
-import symtable
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -115,7 +115,7 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
     """
     try:
         statements = ast.parse(source).body
-        symbols = symtable.symtable(source, "<law>", "exec").get_symbols()
+        instructions = dis.get_instructions(compile(source, "<law>", "exec", dont_inherit=True))
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise ValueError(f"is no Python ({error or 'nested too deeply'})") from error
     parameters: Mapping[str, Parameter] = {}
@@ -129,7 +129,7 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
             except (TypeError, ValueError, RecursionError, MemoryError) as error:
                 requirement = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
                 raise ValueError(f"PARAMETERS on line {node.lineno}: {requirement}") from error
-    names = {symbol.get_name() for symbol in symbols if symbol.is_assigned() or symbol.is_imported()}
+    names = {step.argval for step in instructions if step.opname == "STORE_NAME"}  # not one only annotated
     if source and (missing := [name for name in CONTRACT if name not in names]):
         raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
     if "strength" in names and "Layer" not in names:

@@ -1,3 +1,4 @@
+import pytest
 from study_fixtures import changed
 
 from bladerub.contact.spec import PLASTIC
@@ -32,3 +33,11 @@ def test_the_law_of_the_elements_is_plastic_unless_the_config_names_another_or_a
     assert (found.name, found.parameters, found.source) == ("mine", (("slope", 2.0),), LAW)
     (tmp_path / "mine.py").write_text(LAW + "# edited\n", encoding="utf-8")
     assert grid.element_law(with_law(file="mine.py", slope=2.0)) != found
+
+
+def test_a_name_that_is_only_annotated_is_not_there():
+    law = LAW.replace("elastic_force, ", "")
+    with pytest.raises(ValueError, match="has no elastic_force; a law must have"):
+        law_reading.parameters_of(f"{law}elastic_force: object\n")
+    for line in ("elastic_force: object = element", "if True:\n    elastic_force = element"):
+        assert law_reading.parameters_of(f"{law}{line}\n").keys() == {"slope"}
