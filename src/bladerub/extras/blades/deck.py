@@ -139,7 +139,7 @@ def _materials(path: Path) -> dict[str, tuple[list[str], list[str]]]:
             materials[name][1].extend(lines)
     if absent := [name for name in used if name not in materials] if materials else []:
         raise ValueError(f"a *SOLID SECTION has the material {absent[0]}, which is not there")
-    return {name: materials[name] for name in used} or materials
+    return {name: materials[name] for name in used if materials} or materials
 
 
 def _si(name: str, elastic: list[str], density: list[str], unit: str) -> Material:

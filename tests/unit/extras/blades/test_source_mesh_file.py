@@ -163,6 +163,8 @@ def test_the_material_of_a_deck_is_that_of_its_section_in_the_unit_of_length_and
     assert deck.material(tmp_path / "m.inp", "mm").plain() == pytest.approx(STEEL)
     (tmp_path / "m.inp").write_text("*NODE\n1, 0, 0, 0\n")
     assert deck.material(tmp_path / "m.inp", "mm") is None
+    (tmp_path / "m.inp").write_text("*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n")  # in a file of its own
+    assert deck.material(tmp_path / "m.inp", "mm") is None
     for text, said in (
         (DECK.format("A", "210000, 0.3", "7.85e-9") + DECK.format("B", "1e5, 0.3", "5e-9"), "materials A, B"),
         ("*MATERIAL, NAME=A\n*ELASTIC\n210000, 0.3\n", "A has no .DENSITY"),
