@@ -115,7 +115,7 @@ def run(options: argparse.Namespace) -> None:
     with refused(ValueError, OSError), inputs.as_options(f_omega="f"):
         result = simulate(blade, planned, **more)
     if options.output:
-        with refused(OSError, because=f"--output {options.output}: cannot be written: "):
+        with refused(OSError, because="--output cannot be written: "):
             result.write(options.output, config)
     figures = _figures(planned, blade, result)
     inputs.warn_of_residual(options, figures["energy_residual"])
@@ -180,8 +180,10 @@ def _figures(planned: "StudyRun", blade: "Blade", result: "Run") -> dict[str, An
 
 def _check_output(path: Path) -> None:
     """Check that a run can be written to `path`, and that nothing but a run is replaced."""
-    because = f"--output {path}: cannot be written: "
-    with refused(OSError, because=because), suppress(FileNotFoundError, NotADirectoryError):
+    with (
+        refused(OSError, because="--output cannot be written: "),
+        suppress(FileNotFoundError, NotADirectoryError),
+    ):
         path.lstat()
         if path.is_dir():
             raise BadInput(f"--output {path}: is a folder, must be a file")
