@@ -64,9 +64,9 @@ def compute_missing(
     job = _Job(config, plan, blade, blade_digest, report, threads, folder)
     waiting = f"another job is at work in {folder}: waiting for its end"
     with lock.held(folder / ".lock", lambda: report(waiting)):  # an empty file, locked by the job at work
-        job.complete(plan.runs)
+        computed = job.complete(plan.runs)
         names = {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"}
-        stored = [read_run(folder / run.file, *names) for run in plan.runs]
+        stored = [computed.get(run.file) or read_run(folder / run.file, *names) for run in plan.runs]
         longer = list(map(job.longer_of, plan.runs, stored))
         job.complete([run for run in longer if run])
         return list(map(job.row, plan.runs, stored, longer))
@@ -143,13 +143,17 @@ class _Job:
     def entry(self, run: PlannedRun) -> Entry:
         return Entry(self.folder / run.file, run.key(self.blade_digest), MAPPED)
 
-    def complete(self, runs: Sequence[PlannedRun]) -> None:
-        """Compute what is missing or stale of `runs`, and what goes on of these, into their files."""
+    def complete(self, runs: Sequence[PlannedRun]) -> dict[str, StoredRun]:
+        """Compute what is missing or stale of `runs`, and what goes on of these, into their files.
+
+        Returns of each computed run, by its file, what decides whether it goes on and what its manifest says.
+        """
         missing = [run for run in runs if not self.entry(run).fetch()]
         # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
         costs = {run.file: 1 / run.spec.f_omega for run in missing}
         origin, total = provenance(self.config.plain()), len(missing)
         cost_done, start = 0.0, time.monotonic()
+        done = {}
         for number, (run, stored, seconds) in enumerate(self.computed(missing), 1):
             entry = self.entry(run)
             entry.make_room()
@@ -161,6 +165,9 @@ class _Job:
             seconds_left = (time.monotonic() - start) * max(sum(costs.values()) / cost_done - 1, 0.0)
             status = stored.attributes["status"]
             self.report(RunDone(number, total, run.file, status, seconds, seconds_left))
+            amplitude = {"revolution_amplitude": stored.data["revolution_amplitude"]}
+            done[run.file] = StoredRun(stored.attributes, amplitude)  # not all that a run has, for the memory
+        return done
 
     def row(self, run: PlannedRun, stored: StoredRun, longer: PlannedRun | None) -> ManifestRow:
         """Describe the files of a run and of its longer one, as the manifest lists them."""

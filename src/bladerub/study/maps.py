@@ -64,12 +64,16 @@ class CoatingMap(Comparable):
     @cached_property
     def wear_harmonic(self) -> np.ndarray:
         """Harmonic (n,) that is strongest in the wear, see `bladerub.study.wear.dominant_harmonic`."""
-        return np.array([dominant_harmonic(wear)[0] for wear in self.wear])
+        return np.array([harmonic for harmonic, _ in self._harmonics])
 
     @cached_property
     def wear_harmonic_share(self) -> np.ndarray:
         """Share (n,) of that harmonic in the variance of the worn depth."""
-        return np.array([dominant_harmonic(wear)[1] for wear in self.wear])
+        return np.array([share for _, share in self._harmonics])
+
+    @cached_property
+    def _harmonics(self) -> list[tuple[int, float]]:
+        return [dominant_harmonic(wear) for wear in self.wear]
 
 
 DATASETS: dict[str, tuple[tuple[str, ...], str, str]] = {
@@ -103,7 +107,7 @@ def collect_listed(
     runs, longer = [], []
     for row in rows:
         path, key = folder / row.file, row.confirmation_key
-        runs.append(read_listed(path, row.run_key, MAPPED | _SCALES))
+        runs.append(read_listed(path, row.run_key, MAPPED if runs else MAPPED | _SCALES))
         longer.append(read_listed(confirmation_path(path), key, {"revolution_amplitude"}) if key else None)
     return collect(config, case, blade, [row.f_omega for row in rows], runs, longer)
 

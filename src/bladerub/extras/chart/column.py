@@ -100,7 +100,6 @@ def compute_missing(
         key = digest([planned, blade_digest])
         entries[case] = Entry(folder / f"{case.name}.h5", key, points.MEASURES.keys(), points.KEY)
         runs_keys[case] = digest([run_determinants(config, case, speeds), blade_digest])
-    C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
 
     def compute_alone(case: CoatingCase) -> tuple[points.ChartPoint, float]:
         start = time.monotonic()
@@ -108,10 +107,12 @@ def compute_missing(
         return point, start
 
     with lock.held(column_lock, lambda: report("another job is at work on this column: waiting for its end")):
-        for case, entry in entries.items():
-            if not entry.fetch():
-                earlier = points.read_of(entry.path, runs_keys[case])
-                searches[case] = search(config, case, blade, speeds, C1, earlier)
+        missing = [case for case, entry in entries.items() if not entry.fetch()]
+        if missing:
+            C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
+        for case in missing:
+            earlier = points.read_of(entries[case].path, runs_keys[case])
+            searches[case] = search(config, case, blade, speeds, C1, earlier)
         if solver.wants_many:
             together = partial(solver.simulate_many, blade, threads=threads, report=report)
             start = time.monotonic()
