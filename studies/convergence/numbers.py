@@ -61,12 +61,10 @@ def _steps(steps):
 
 def _accuracy(accuracy):
     drawn, important = rows(accuracy, drawn_from="all"), rows(accuracy, drawn_from="important")
-    errors, starts = (
-        accuracy[[f"{origin}_{measure}" for measure in _MEASURES]].max(axis=1) > _LIMIT
-        for origin in ("error", "start")
-    )
-    by_modulus = accuracy.assign(beyond=errors, chaotic=starts).groupby("E")[["beyond", "chaotic"]]
-    unexplained = accuracy[errors & ~starts & (accuracy["status"] == "completed")]
+    beyond = accuracy[[f"error_{measure}" for measure in _MEASURES]].max(axis=1) > _LIMIT
+    by_modulus = accuracy.assign(beyond=beyond).groupby("E")[["beyond", "sensitive"]]
+    unexplained = accuracy[beyond & ~accuracy["sensitive"] & (accuracy["status"] == "completed")]
+    by_start = unexplained[[f"start_{measure}" for measure in _MEASURES]].max(axis=1)
     return {
         "drawn": fixed(len(drawn)),
         "important": fixed(len(important)),
@@ -75,18 +73,19 @@ def _accuracy(accuracy):
         ),
         "by_modulus": table(
             by_modulus.sum().assign(runs=by_modulus.size()).reset_index(),
-            {"E": "E", "runs": "runs", "beyond": "beyond 1 %", "chaotic": "of these chaotic"},
+            {"E": "E", "runs": "runs", "beyond": "beyond 1 %", "sensitive": "of these chaotic"},
         ),
         "drawn_unbounded": fixed(len(rows(accuracy, status="unbounded"))),
         "unexplained": table(
-            unexplained,
+            unexplained.assign(by_start=by_start),
             headings("casing", "E", "K", "theta", "f_omega")
             | {
                 f"error_{measure}": (f"{words}, %", lambda error: percent(error, 2))
                 for measure, words in zip(
                     _MEASURES, ("wear", "spectral peak", "revolution peak"), strict=True
                 )
-            },
+            }
+            | {"by_start": ("most by another start, %", lambda change: percent(change, 2))},
         ),
     }
 

@@ -14,7 +14,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import own_steps, with_steps
 from bladerub.contact.strips import element_passage
 from bladerub.extras.verification.differences import differences, largest
-from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, TOLERANCE, StudyRun
+from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, TOLERANCE, StudyRun, explain
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec, speeds
 from bladerub.study.variants import with_variant
@@ -56,8 +56,8 @@ def table(
     """Find steps and error of the drawn runs at each tolerance; a row each, with `COLUMNS`.
 
     The error is the largest of `bladerub.extras.verification.differences` from a run of `REFINEMENT` times
-    the steps of the smallest tolerance. A run is sensitive if neighbouring starts change it by half its error
-    at a tolerance of 0.01 or more, and by 1 % at least. `report` is called with a line for each run.
+    the steps of the smallest tolerance. A run is sensitive, whatever the tolerance, if neighbouring starts
+    `explain` its errors at that of the study. `report` is called with a line for each run.
     """
     rows, runs = [], draw(config)
     for number, run in enumerate(runs, 1):
@@ -78,19 +78,20 @@ def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[A
     steps = {tolerance: round(passage / result.time_step) for tolerance, result in results.items()}
     reference = simulate(blade, with_steps(spec, REFINEMENT * steps[min(TOLERANCES)]))
     errors = {
-        tolerance: max(differences([result], [reference], analysis)) for tolerance, result in results.items()
+        tolerance: differences([result], [reference], analysis) for tolerance, result in results.items()
     }
 
     # Only what is beyond 1 % can be chaotic
-    error, spread = errors[STUDY], 0.0
-    if error > TOLERANCE and math.isfinite(error):
+    error, is_sensitive = errors[STUDY], False
+    if TOLERANCE < max(error) < math.inf:
         starts = (simulate(blade, replace(specs[STUDY], initial_displacement=start)) for start in NEIGHBOURS)
-        spread = max(largest(differences([start], [results[STUDY]], analysis) for start in starts))
+        spread = largest(differences([start], [results[STUDY]], analysis) for start in starts)
+        is_sensitive = explain(error, spread)
     *coating, variant = astuple(run.case)
     for tolerance, result in results.items():
         yield [
             *(*coating, run.f_omega, tolerance, steps[tolerance]),
             steps[tolerance] * spec.coating.n_elements,
-            *(errors[tolerance], spread >= max(error / 2, TOLERANCE), result.energy.residual),
+            *(max(errors[tolerance]), is_sensitive, result.energy.residual),
             variant,
         ]

@@ -89,11 +89,17 @@ class VerifiedRun:
 
     @property
     def is_sensitive(self) -> bool:
-        """Whether neighbouring starts explain every error beyond `TOLERANCE`, by half of it at least."""
-        if self.spread is None or not self.is_beyond:
-            return False
-        pairs = zip(self.error, self.spread, strict=True)
-        return all(spread >= error / 2 for error, spread in pairs if error > TOLERANCE)
+        """Whether it is beyond, and neighbouring starts explain that, see `explain`."""
+        return self.is_beyond and self.spread is not None and explain(self.error, self.spread)
+
+
+def explain(error: Differences, spread: Differences) -> bool:
+    """Whether neighbouring starts, which change a run by `spread`, explain its errors beyond `TOLERANCE`.
+
+    They do if they change the run by at least half of each.
+    """
+    pairs = zip(error, spread, strict=True)
+    return all(change >= difference / 2 for difference, change in pairs if difference > TOLERANCE)
 
 
 def important_runs(config: Config, maps: Path) -> list[StudyRun]:
