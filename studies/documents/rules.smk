@@ -25,5 +25,6 @@ rule docs_data:
         f"{RESULTS}/logs/docs_data.log",
     params:
         results=RESULTS,
+        laid_over=str(LAID_OVER) if LAID_OVER.files or LAID_OVER.command_line else "",
     script:
         "scripts/docs_data.py"

@@ -13,11 +13,13 @@ from blade_parts import TWISTED
 import bladerub as br
 from bladerub import plugins
 from bladerub.blade.source import reader
-from bladerub.cli import main
+from bladerub.cli import main, parser, run
+from bladerub.cli.run_option import RunOption
 from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import PACKAGE, ROOT
-from bladerub.settings.study import required
+from bladerub.plugins import load
+from bladerub.settings.study import required, whole
 
 PROGRAM = """
 import sys
@@ -106,6 +108,28 @@ def test_what_a_plugin_cannot_add_is_refused_in_a_line(monkeypatch, added, said)
     )
     with pytest.raises(plugins.MissingPart, match=f"^x/plugin.py: {said}"):
         plugins.offered.__wrapped__("LAWS")
+
+
+@pytest.mark.parametrize(
+    ("kind", "added", "made", "said"),
+    [
+        ("SECTIONS", {"solver": "settings.study:Speeds"}, whole, "solver: is a key of the config"),
+        ("RUN_OPTIONS", {"a": "contact.law"}, parser, "contact.law: must be a class as "),
+        ("RUN_OPTIONS", {"a": f"{__name__}:Twice"}, parser, "argument --output: conflicting"),
+    ],
+)
+def test_what_disagrees_with_the_core_is_refused_in_a_line(monkeypatch, kind, added, made, said):
+    offered = plugins.offered
+    monkeypatch.setattr(plugins, "offered", lambda of: added if of == kind else offered(of))
+    monkeypatch.setattr(plugins, "load", lambda place: Twice if "Twice" in place else load(place))
+    monkeypatch.setattr(run, "_options", run._options.__wrapped__)
+    with pytest.raises(plugins.MissingPart, match=said):
+        getattr(made, "__wrapped__", made)()
+
+
+class Twice(RunOption):
+    def add_to(self, options):
+        options.option("--output", "again")
 
 
 def test_a_source_of_blades_lacks_no_function(monkeypatch):

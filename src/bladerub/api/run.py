@@ -27,7 +27,7 @@ from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.growth import Verdict, judge
 from bladerub.study.manifest import confirmation_path, lists_longer
 from bladerub.study.store import StoredRun
-from bladerub.study.summary import displacement_peak, summarise
+from bladerub.study.summary import displacement_peak, summarise, worn_through
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -253,7 +253,7 @@ class Run(Shown):
         return f"{titles.coating(self.case, unit)}, {titles.speed(self.f_omega)}"
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
-        peaks, longer = self.revolution_peak, self.longer
+        peaks, longer, wear = self.revolution_peak, self.longer, self.wear.max()
         followed = {"followed for": f"{longer.revolutions} revolutions, {longer.status}"} if longer else {}
         return "Run", {
             "coating": self.case.name,
@@ -262,7 +262,7 @@ class Run(Shown):
             "status": self.status,
             **({"verdict": in_a_word(self.verdict())} if self.config else {}),
             "largest radial displacement": f"{1e3 * displacement_peak(peaks, peaks.size):.4g} mm",
-            "greatest wear": f"{1e3 * self.wear.max():.4g} mm",
+            "greatest wear": f"{1e3 * wear:.4g} mm" + worn_through(wear, self.attributes["layer_thickness"]),
             "energy residual": f"{self.energy.residual:.2g}",
             **followed,
         }

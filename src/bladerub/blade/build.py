@@ -10,7 +10,7 @@ from bladerub import plugins
 from bladerub.blade import geometry
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
-from bladerub.blade.mesh import BladeMesh, MeshedBlade
+from bladerub.blade.mesh import BladeMesh, MeshedBlade, check_length
 from bladerub.blade.model import N_INTERFACE, n_interface
 from bladerub.blade.reduction import fit_speeds, reduce
 from bladerub.blade.source import reader
@@ -74,9 +74,16 @@ def _reduce(
 
 @threadpool_limits.wrap(limits=1)
 def meshed_blade(blade: Blade, n_nodes: int = N_INTERFACE) -> MeshedBlade:
-    """Mesh the blade of the ``blade`` block, or the one of its source, with `n_nodes` interface nodes."""
+    """Mesh the blade of the ``blade`` block, or the one of its source, with `n_nodes` interface nodes.
+
+    Raises as `build`.
+    """
     if source := reader(blade):
-        return source.meshed(blade, n_nodes)
+        if not hasattr(source, "meshed"):
+            raise BadInput("blade.source: its blade has no finite elements, which this needs")
+        meshed = source.meshed(blade, n_nodes)
+        check_length(blade.length, meshed.length, *source.files(blade.plugged("source"))[:1])
+        return meshed
     geometry.check(blade, n_nodes)
     shape = geometry.BladeShape.from_config(blade)
-    return MeshedBlade(BladeMesh.from_shape(shape, blade.mesh, n_nodes), shape.tip_cone, blade.length)
+    return MeshedBlade(BladeMesh.from_shape(shape, blade.mesh, n_nodes), shape.tip_cone)

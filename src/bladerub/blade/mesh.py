@@ -1,6 +1,7 @@
 """Meshes of quadratic elements, curved at their mid-side nodes; the blade's mesh and its free coordinates."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
@@ -13,6 +14,9 @@ from bladerub.blade.geometry import check_interface, corner_jacobians, lattice
 from bladerub.blade.model import N_INTERFACE
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Mesh
+
+LENGTH_TOLERANCE = 0.05
+"""Of ``blade.length`` to that of a blade from elsewhere, whose root need not be a cylinder."""
 
 
 class FreeCoordinates:
@@ -178,7 +182,7 @@ def _check_points(points, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> 
     mapped = np.asarray(points(xi.ravel(), eta.ravel(), zeta.ravel()))
     if mapped.shape != (3, xi.size):
         raise BadInput(f"points of the shape: has the shape {mapped.shape}; must be x, y, z, (3, {xi.size})")
-    inside_out = (corner_jacobians(mapped.reshape(3, *xi.shape)) <= 0).any(axis=(0, 1, 2))
+    inside_out = ~(corner_jacobians(mapped.reshape(3, *xi.shape)) > 0).all(axis=(0, 1, 2))  # or no number
     if inside_out.any():
         span = zeta[0, 0, np.argmax(inside_out)]
         raise BadInput(
@@ -193,4 +197,19 @@ class MeshedBlade:
 
     mesh: BladeMesh  # in the frame of `bladerub.blade.geometry`
     tip_cone: float  # half angle of the flow path at the tip, rad; positive where it widens with x
-    length: float  # from root to tip, m
+
+    @property
+    def length(self) -> float:
+        """Mean radius of the tip less that of the clamped nodes, or of the lowest if none is clamped, m."""
+        _, y, z = self.mesh.mesh.points.T
+        radius, root = np.hypot(y, z), self.mesh.root
+        return float(radius[self.mesh.tip].mean() - (radius[root].mean() if root.size else radius.min()))
+
+
+def check_length(length: float, measured: float, file: str | Path) -> None:
+    """Check the ``blade.length`` of a config by that of the blade in a `file`; BadInput if it is another."""
+    if not abs(measured / length - 1) <= LENGTH_TOLERANCE:
+        raise BadInput(
+            f"blade.length = {length:g}: must be that of the blade in {file}, {measured:.4g} m to within "
+            f"{LENGTH_TOLERANCE:.0%}; clearances are in this unit"
+        )

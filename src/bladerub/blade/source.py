@@ -31,10 +31,11 @@ def place(blade: Blade) -> str | None:
     source, places = blade.plugged("source"), plugins.offered("SOURCES")
     if source is None:
         return None
-    for key, place in places.items():
-        if source.plugged(key) is not None:
-            return place
-    raise ValueError(f"blade.source: must have {' or '.join(sorted(places)) or 'a plugin that reads it'}")
+    keys = [key for key in places if source.plugged(key) is not None]
+    if len(keys) == 1:
+        return places[keys[0]]
+    one = " or ".join(sorted(places)) or "a plugin that reads it"
+    raise ValueError(f"blade.source: must have {one}{', not both' if keys else ''}")
 
 
 def modules(config: BladeSpec) -> list[str]:

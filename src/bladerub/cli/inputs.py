@@ -47,10 +47,11 @@ class Parser(argparse.ArgumentParser):
         return options
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """Parse, with ``--downstream -z`` as ``--downstream=-z`` if ``-z`` is one of the choices."""
+        """Parse, with ``--downstream -z`` as ``--downstream=-z`` if that is a choice, or a quantity."""
         words: list[str] = []
         for word in sys.argv[1:] if args is None else args:
-            if words and word.startswith("-") and word in self._choices.get(words[-1], ()):
+            choices = self._choices.get(words[-1]) if words and word.startswith("-") else None
+            if choices is not None and (word in choices or units.read(word)):
                 words[-1] += f"={word}"
             else:
                 words.append(word)
@@ -176,6 +177,12 @@ def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[s
         return config, notes
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
+    for file in files:
+        if not file.is_file():
+            raise BadInput(
+                f"{file}: there is no such file, and {results}/{record.FILE} names it; "
+                f"name a config with --config FILE, {base} for the study without it"
+            )
     config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
     law = getattr(config.contact.plugged("law"), "file", None)
     named_law = settings["contact"].get("law", {}).get("file")
@@ -210,6 +217,15 @@ def quantity(text: str) -> float | str:
     return text
 
 
+def number(text: str) -> float:
+    """Read an option that is a number without a unit."""
+    try:
+        return float(text)
+    except ValueError:
+        unit = f", without the unit {read.unit}" if (read := units.read(text)) else ""
+        raise argparse.ArgumentTypeError(f"must be a number{unit}: {text!r}") from None
+
+
 def blade_path(options: argparse.Namespace, config: "Config") -> Path:
     """Return the file of ``--blade``, or where the blade of the results folder is or will be."""
     return options.blade or study_folder() / config.results / "blade" / "reduced_model.h5"
@@ -229,7 +245,8 @@ def read_blade(options: argparse.Namespace, config: "Config") -> "tuple[Blade, C
     if not options.blade and missing_file(path):
         invocation.prepare(path.parents[1])
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
-        blades.write_blade(config, path)
+        with refused(ValueError):
+            blades.write_blade(config, path)
     elif not options.blade and not is_built(config, path):
         raise BadInput(
             f"{path}: was built from another config; name that with --config, build it again with "

@@ -61,18 +61,26 @@ def add_to(commands: Any) -> None:
     speed = parser.add_mutually_exclusive_group(required=True)
     text = "speed: normalised, or with a unit, such as 2200rpm or '38 Hz'"
     speed.add_argument("--f", type=quantity, metavar="F_OMEGA", help=text)
-    speed.add_argument("--rpm", type=float, metavar="N", help="the same as --f 'N rpm'")
+    speed.add_argument("--rpm", type=inputs.number, metavar="N", help="the same as --f 'N rpm'")
     parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
-    for option in _options():
-        option.add_to(parser)
     text = "what the run is computed on, instead of solver.device"
     parser.option("--device", text, choices=["cpu", *plugins.offered("SOLVERS")])
     parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
+    for name, option in _options().items():
+        try:
+            option.add_to(parser)
+        except argparse.ArgumentError as error:
+            raise plugins.MissingPart(f"{plugins.offered('RUN_OPTIONS')[name]}: {error}") from None
 
 
 @cache
-def _options() -> list[RunOption]:
-    return [option() for option in plugins.loaded("RUN_OPTIONS").values()]
+def _options() -> dict[str, RunOption]:
+    options = plugins.loaded("RUN_OPTIONS")
+    for name, option in options.items():
+        if not (isinstance(option, type) and issubclass(option, RunOption)):
+            place = plugins.offered("RUN_OPTIONS")[name]
+            raise plugins.MissingPart(f"{place}: must be a class as bladerub.cli.run_option.RunOption")
+    return {name: option() for name, option in options.items()}
 
 
 def run(options: argparse.Namespace) -> None:
@@ -80,7 +88,7 @@ def run(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     if options.device:
         config = config.replaced("solver.device", options.device)
-    for option in _options():
+    for option in _options().values():
         option.check(options, config)
 
     from bladerub.api.simulate import simulate
@@ -89,39 +97,44 @@ def run(options: argparse.Namespace) -> None:
     from bladerub.study.solver import solver_of
 
     study, more = Study(config, inputs.study_folder()), {}
-    for option in _options():
+    for option in _options().values():
         study = option.vary(options, study)
         more |= option.arguments(options)
     if options.output:
         _check_output(options.output)
-    speed = options.f if options.rpm is None else f"{options.rpm!r} rpm"
+    by, speed = ("f", options.f) if options.rpm is None else ("rpm", f"{options.rpm:.15g} rpm")
     blade = None
     if options.blade:
         blade, config = inputs.read_blade(options, study.config)
         study = replace(study, config=config)
-    with inputs.as_options(f_omega="f", speed="f"):
+    with inputs.as_options(f_omega=by, speed=by):
         f_omega = blade.f_omega(speed) if blade else speed
         describe = study.rigid if options.coating == "rigid" else study.coating
         planned = describe(options.casing, **_coating_values(options)).at(f_omega, options.revolutions)
-    fastest = config.reduction.f_omega_max
-    if not blade and planned.f_omega > fastest:  # of a blade that may not be built yet
+    fastest = blade.reduced.f_omega_max if blade else config.reduction.f_omega_max
+    if planned.f_omega > fastest:  # before it is built
         typed = f" ({speed})" if isinstance(speed, str) else ""
-        limit = f"reduction.f_omega_max = {speed_in_words(fastest, kept_frequency(config))}"
-        option = "--f" if options.rpm is None else "--rpm"
-        raise BadInput(f"{option} = {planned.f_omega:g}{typed}: must be at most {limit}")
+        limit = speed_in_words(fastest, blade.f1_hz if blade else kept_frequency(config))
+        raise BadInput(
+            f"--{by} = {planned.f_omega:g}{typed}: must be at most reduction.f_omega_max = {limit}"
+        )
     _point_out(options, planned)
     solver_of(config).check()
     blade = blade or inputs.read_blade(options, config)[0]
-    with refused(ValueError, OSError), inputs.as_options(f_omega="f"):
+    with refused(ValueError, OSError), inputs.as_options(f_omega=by):
         result = simulate(blade, planned, **more)
     if options.output:
         with refused(OSError, because="--output cannot be written: "):
             result.write(options.output, config)
     figures = _figures(planned, blade, result)
     inputs.warn_of_residual(options, figures["energy_residual"])
-    for option in _options():
-        figures |= option.figures(options, planned, blade, result)
-        figures["units"] |= option.units
+    for name, option in _options().items():
+        if more := option.figures(options, planned, blade, result):
+            if taken := more.keys() & figures.keys():
+                place = plugins.offered("RUN_OPTIONS")[name]
+                raise plugins.MissingPart(f"{place}: figures: {min(taken)}: is a figure of every run")
+            figures |= more
+            figures["units"] |= option.units
     inputs.show(options, figures, _in_words)
 
 
@@ -202,6 +215,8 @@ def _is_run(path: Path) -> bool:
 
 
 def _in_words(figures: dict[str, Any]) -> str:
+    from bladerub.study.summary import worn_through
+
     order = figures["engine_order"]
     duration = f", after {figures['growth_revolutions']} revolutions"
     harmonic, share = figures["wear_harmonic"], f"{100 * figures['wear_harmonic_share']:.0f}"
@@ -219,7 +234,8 @@ def _in_words(figures: dict[str, Any]) -> str:
         else f"{figures['peak_amplitude'] * 1e3:.4g} mm (radial, node 1, last revolutions)"
         + inputs.large_in_words(figures["displacement_over_length"]),
         "engine order": "none" if order is None else f"{order:.4g}",
-        "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
+        "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm"
+        + worn_through(figures["max_wear"], figures["layer_thickness"]),
         **layer,
         "lobes": figures["lobes"],
         "strongest harmonic of the wear": f"{harmonic} ({share} % of the variance)" if harmonic else "none",
@@ -231,7 +247,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         "steps": figures["n_steps"],
     }
     lines = inputs.aligned(rows.items())
-    for option in _options():
+    for option in _options().values():
         if more := option.in_words(figures):
             lines += ["", *more]
     return "\n".join(lines)

@@ -16,6 +16,10 @@ from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config, typed, whole
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, modulus_unit
 
+_LIMIT = re.compile(
+    rf"(?: =| from| to| above| below| at least| of at least| at most) ({units.NUMBER})(?: m\b)?"
+)
+"""A number in the unit of the plain number, in what a problem says is right."""
 _READS = {"f1": {"blade", "reduction"}, "modulus_unit": {"contact"}, "blade lengths": {"blade"}}
 """Keys at the top of the config that say what a reference is; `UNSCALED` ones are of ``contact``."""
 
@@ -104,9 +108,14 @@ def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
             return problem
         right = right.partition("; this is ")[0]  # a unit was typed, it needs no hint
         quantity = units.read(quantities[path])
-        if limit := re.search(rf" = ({units.NUMBER})", right):  # in the unit of the plain number
-            typed_limit = float(limit[1]) / after[path] * float(quantity.number)
-            right = right.replace(limit[0], f"{limit[0]} ({typed_limit:,.6g} {quantity.unit})")
+
+        def in_typed_unit(limit: re.Match) -> str:
+            return (
+                f"{limit[0]} ({float(limit[1]) / after[path] * float(quantity.number):,.6g} {quantity.unit})"
+            )
+
+        if after[path]:
+            right = _LIMIT.sub(in_typed_unit, right)
         return f"{setting} ({quantities[path]}){colon}{right}"
 
     return add

@@ -14,6 +14,7 @@ from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.strips import by_angle, element_angle
+from bladerub.io.errors import BadInput
 
 
 def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None) -> RunResult:
@@ -31,7 +32,8 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
 
     `bladerub.contact.reference` has the whole model on a page. `progress` is called with the number of
     revolutions done after each of them. What was computed until a displacement exceeded the limit is kept.
-    Raises `ValueError` if the speed is outside the range of the blade, or the step too long for the scheme.
+    Raises `ValueError` if the speed is outside the range of the blade, the step too long for the scheme, or
+    if the law of the coating gives what is no number.
     """
     return simulate_longer(blade, spec, lambda result: 0, progress)[0]
 
@@ -122,6 +124,13 @@ class History:
             np.where(np.isfinite(end), end, np.nan) for end in (self.lowest, self.highest)
         )
         state, layer = simulation.state, simulation.layer
+        ledger = energy.balance(rule, state, initial, simulation.angle_per_step)
+        if not np.isfinite(ledger.residual):
+            coating = spec.coating
+            raise BadInput(
+                f"law {coating.element_law.label}: gives what is no number, in {elapsed:.2f} revolutions at "
+                f"E = {coating.E:g}, K = {coating.K:g}"
+            )
         return {
             "status": status,
             "message": message,
@@ -132,7 +141,7 @@ class History:
             "revolution_amplitude": 0.5 * (highest - lowest),
             "n_steps": self.n_steps,
             "n_contact_steps": self.n_contact_steps,
-            "energy": energy.balance(rule, state, initial, simulation.angle_per_step),
+            "energy": ledger,
             "layer": {
                 name: by_angle(blade, spec, rows)
                 for name, rows in (layer.outcome(state) if layer else {}).items()

@@ -15,6 +15,8 @@ def law_parameters(option: str, settings: list[str]) -> dict[str, float | str]:
     values: dict[str, float | str] = {}
     for setting in settings:
         name, _, value = setting.partition("=")
+        if name.strip() in values:
+            raise BadInput(f"{option} = {setting}: must be there once for each parameter")
         try:
             values[name.strip()] = inputs.quantity(value)
         except argparse.ArgumentTypeError:

@@ -131,6 +131,9 @@ def _extended(model: type[Section], path: str, offered: Mapping[str, Any]) -> ty
             added[name] = (_extended(field.annotation, f"{path}{name}.", offered), field)
         else:
             added[name] = _field(_extended(below.get(name, Section), f"{path}{name}.", offered))
+    for key in added.keys() & below.keys() & model.model_fields.keys():
+        place = plugins.offered("SECTIONS")[f"{path}{key}"]
+        raise plugins.MissingPart(f"{place}: {path}{key}: is a key of the config, must have another name")
     return create_model(model.__name__, __base__=model, __doc__=model.__doc__, **added) if added else model
 
 

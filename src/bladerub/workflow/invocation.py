@@ -145,7 +145,7 @@ def plan(
 
 
 def start(workflow: Any) -> None:
-    """Begin to compute what was planned: `prepare` its results folder, record its config.
+    """Begin to compute what was planned: `prepare` its results folder, record the config of new results.
 
     Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
     calls it from its own, since Snakemake ignores that of a module. Raises `BadInput` for targets beside the
@@ -167,7 +167,9 @@ def start(workflow: Any) -> None:
     for remedy in plugins.loaded("REMEDIES").values():
         remedy.start(workflow, [results])
     prepare(results)
-    record.write(results, laid_over.files, laid_over.command_line)
+    planned = workflow.dag.needrun_jobs()
+    if any(Path(results) in Path(file).parents for job in planned for file in job.output):
+        record.write(results, laid_over.files, laid_over.command_line)
     if workflow.local_exec:  # a job on another machine shares nothing with this process
         begin()
 
@@ -183,7 +185,8 @@ def finished(results: str | Path) -> None:
     n_figures = sum(path.suffix == ".png" for path in results.glob("figures/**/*"))
     figures = "1 figure" if n_figures == 1 else f"{n_figures} figures"
     tables = f", tables in {results / 'tables'}" if (results / "tables").is_dir() else ""
-    _print(f"{figures} in {results / 'figures'}{tables}")
+    if n_figures:
+        _print(f"{figures} in {results / 'figures'}{tables}")
     for page in sorted(results.glob("*.html")):
         _print(f"open {page} in a browser")
 

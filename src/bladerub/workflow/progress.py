@@ -58,7 +58,7 @@ class JobProgress:
         longer = sum(bool(row.confirmation_key) for row in rows)
         unbounded = sum(row.status == "unbounded" for row in rows)
         summary = (
-            f"{self._name}: {len(rows)} runs, {longer} of them longer as well, {unbounded} unbounded; "
+            f"{self._name}: {len(rows)} runs, {unbounded} of them unbounded, {longer} followed further; "
             f"{self._computed} computed in {time.monotonic() - self._start:.0f} s"
         )
         job.log(summary)

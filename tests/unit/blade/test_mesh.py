@@ -74,6 +74,6 @@ def test_volume_is_that_of_the_sections(twisted_config):
 
 
 def test_a_shape_that_turns_elements_inside_out_is_refused(twisted_config):
-    shape = SimpleNamespace(points=lambda xi, eta, zeta: np.stack([eta, xi, zeta]))
-    with pytest.raises(ValueError, match="turned inside out"):
-        BladeMesh.from_shape(shape, twisted_config.mesh)
+    for points in (lambda xi, eta, zeta: np.stack([eta, xi, zeta]), lambda *xi: np.stack(xi) + np.nan):
+        with pytest.raises(ValueError, match="turned inside out"):
+            BladeMesh.from_shape(SimpleNamespace(points=points), twisted_config.mesh)

@@ -56,6 +56,18 @@ def test_targets_of_results_of_another_config_are_refused(workflow_with, tmp_pat
         invocation.start(workflow_with(targets={"stress"}))
 
 
+@pytest.mark.parametrize(("output", "files"), [("docs/config.md", 1), ("{}/figures/fig01.png", 0)])
+def test_the_config_is_recorded_with_new_results_alone(workflow_with, monkeypatch, tmp_path, output, files):
+    monkeypatch.setattr(invocation.plugins, "loaded", lambda kind: {})
+    record.write(tmp_path, ["config/quick.yaml"], {})
+    invocation.plan(str(tmp_path), Record(("config/config.yaml",)))
+    workflow = workflow_with()
+    workflow.dag = SimpleNamespace(needrun_jobs=lambda: [SimpleNamespace(output=[output.format(tmp_path)])])
+    invocation.start(workflow)
+    made_with = record.read(tmp_path)
+    assert len(made_with.files if made_with else ()) == files
+
+
 def test_the_rules_do_not_import_the_compiler():
     """Each call of snakemake would wait for it, and each of its jobs on a cluster."""
     imports = re.compile(r"^(?:import bladerub.*|from bladerub\S* import (?:\([^)]*\)|.*))$", re.M)

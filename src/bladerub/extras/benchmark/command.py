@@ -62,7 +62,7 @@ def benchmark(options: argparse.Namespace) -> None:
     for n in options.nodes:
         if not FEWEST_NODES <= n <= MOST_NODES:
             raise BadInput(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
-    if options.nodes and (source := config.blade.plugged("source")) and source.matrices:
+    if options.nodes and (source := config.blade.plugged("source")) and source.plugged("matrices"):
         raise BadInput("--nodes: a blade of matrices has the interface nodes that its folder marks")
     if options.gpu is not None:
         _on_gpu(options, config)

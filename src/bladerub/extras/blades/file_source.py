@@ -59,12 +59,10 @@ def files(source: Source) -> list[str]:
 
 
 def meshed(blade: Blade, n_nodes: int) -> "MeshedBlade":
-    """Read the blade, and mesh a table; BadInput if it cannot be used, or is not of the length in `blade`."""
-    from bladerub.extras.blades.importing import check_length, import_blade
+    """Read the blade, and mesh a table; BadInput if it cannot be used."""
+    from bladerub.extras.blades.importing import import_blade
 
-    imported = import_blade(blade.source, blade.mesh, n_nodes).blade
-    check_length(blade.length, imported.length, blade.source.file)
-    return imported
+    return import_blade(blade.source, blade.mesh, n_nodes).blade
 
 
 def build(config: Config) -> "BuiltBlade":

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, field
 from difflib import get_close_matches
-from pathlib import Path
 
 import numpy as np
 
@@ -14,10 +13,8 @@ from bladerub.extras.blades import element_quality, mesh_file, origin, profile, 
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.section_profile import Profile
 from bladerub.extras.blades.settings import Source
-from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Mesh
 
-LENGTH_TOLERANCE = 0.05  # of ``blade.length`` to what an import measures: its root need not be a cylinder
 _FACING = np.cos(np.pi / 4)
 
 
@@ -153,22 +150,12 @@ def measured(mesh: BladeMesh, frame: Frame, tip_cone: float | None) -> MeshedBla
     A ValueError says if the length is none of a blade. It is that from the clamped nodes to the tip or, where
     no node is clamped, the range of the radii.
     """
-    points = mesh.mesh.points
-    radius = np.hypot(points[:, 1], points[:, 2])
-    cone = profile.cone(points[mesh.tip], tip_cone, frame.downstream_x)
-    lowest = radius[mesh.root].mean() if mesh.root.size else radius.min()
-    length = float(radius[mesh.tip].mean() - lowest)
+    cone = profile.cone(mesh.mesh.points[mesh.tip], tip_cone, frame.downstream_x)
+    blade = MeshedBlade(mesh, cone)
     if mesh.root.size:
-        if length <= 0:
-            raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
-        frame.check_length(length)
-    return MeshedBlade(mesh, cone, length)
-
-
-def check_length(length: float, measured: float, path: str | Path) -> None:
-    """Check the length of the config by that of the blade in the file `path`; BadInput if it is another."""
-    if abs(measured / length - 1) > LENGTH_TOLERANCE:
-        raise BadInput(
-            f"blade.length = {length:g}: must be that of the blade in {path}, {measured:.4g} m to within "
-            f"{LENGTH_TOLERANCE:.0%}; clearances are in this unit"
-        )
+        if blade.length <= 0:
+            raise ValueError(
+                f"the tip is no farther from the engine axis than the root ({blade.length:.3g} m)"
+            )
+        frame.check_length(blade.length)
+    return blade

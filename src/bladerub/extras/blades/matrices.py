@@ -11,11 +11,18 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.linear import lowest_modes
-from bladerub.blade.mesh import BladeMesh, FreeCoordinates, MeshedBlade, NodeCloud
+from bladerub.blade.mesh import (
+    LENGTH_TOLERANCE,
+    BladeMesh,
+    FreeCoordinates,
+    MeshedBlade,
+    NodeCloud,
+    check_length,
+)
 from bladerub.blade.reduction import fit_speeds
 from bladerub.extras.blades import matrix_folder, origin, rigid_body
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.importing import LENGTH_TOLERANCE, check_length, measured
+from bladerub.extras.blades.importing import measured
 from bladerub.extras.blades.matrix_folder import FIT, MASS, NODES
 from bladerub.extras.blades.origin import MATRIX_UNITS, naming
 from bladerub.extras.blades.settings import Source

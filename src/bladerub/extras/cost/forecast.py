@@ -73,11 +73,18 @@ def forecast(
         plan = plan_of(case.name) if plan_of else coating_plan(config, case)
         counts[case.name] = inventory.take(config, plan, results / "runs" / case.name, digest)[0]
     total = inventory.total(counts.values())
-    n_missing = total["planned"] - total["done"]
-    state = "to be computed" if any(rule == "coating" for rule, _ in jobs) else "missing, and not asked for"
-    runs = f"{n_missing:,} of {total['planned']:,} runs of the study are {state}"
-    if not n_missing:
+    missing = {name: count["planned"] - count["done"] for name, count in counts.items()}
+    asked = {coating for rule, coating in jobs if rule == "coating"}
+    n_runs, state = sum(missing.values()), "missing, and not asked for"
+    if any(missing[name] for name in asked & missing.keys()):
+        n_runs, state = sum(missing[name] for name in asked & missing.keys()), "to be computed"
+    runs = f"{n_runs:,} of {total['planned']:,} runs of the study are {state}"
+    if not n_runs:
         runs = f"all {total['planned']:,} runs of the study are done"
+    if further := len(asked - missing.keys()):
+        runs += f", those of {further} other coating{'s' * (further > 1)} are to be computed"
+    if digest and "blade" in dict(jobs):
+        runs += ", if the blade comes out as it is"
     if not jobs:
         return runs
     costs, row = costs_of(config), config.plugged("rotor")
@@ -85,8 +92,9 @@ def forecast(
     left = {name: 1 - count["done"] / count["planned"] for name, count in counts.items()}
     for rule, coating in jobs:
         seconds += SECONDS_PER_JOB + SECONDS_AT_FIRST.get(rule, 0)
-        if rule == "coating" and coating in counts:
-            simulated += left[coating] * (row.blades if row else 1) * costs.runs[coating]
+        if rule == "coating":
+            mean = sum(costs.runs.values()) / len(costs.runs)
+            simulated += left.get(coating, 1) * (row.blades if row else 1) * costs.runs.get(coating, mean)
         elif rule in costs.further:  # of a coating whose own runs are done, what was listed once is too
             is_listed = (results / "runs" / str(coating) / rule / "manifest.tsv").exists()
             simulated += 0 if is_listed and not left[coating] else costs.further[rule].get(coating, 0)
@@ -97,4 +105,5 @@ def forecast(
     machine = f"on {cores} cores" if cores and cores > 1 else "of one core"
     unknown = sorted(set(simulating) - {"coating", *costs.further})
     without = f", without the simulations of {', '.join(unknown)}" if unknown else ""
-    return f"{runs}; {len(jobs):,} jobs, about {minutes:.0f} min {machine}{without}"
+    number = "1 job" if len(jobs) == 1 else f"{len(jobs):,} jobs"
+    return f"{runs}; {number}, about {minutes:.0f} min {machine}{without}"

@@ -64,7 +64,7 @@ def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> dict[st
     if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
         raise BadInput(f"--fe-matrices {folder}: is there already, must be a new or an empty folder")
     source = config.blade.plugged("source")
-    if source and source.matrices:
+    if source and source.plugged("matrices"):
         raise BadInput("--fe-matrices: the blade of the config is of matrices already, without elements")
     inputs.require_writable("--fe-matrices", folder)
     f_max = config.reduction.f_omega_max
@@ -128,9 +128,9 @@ def write_sections(options: argparse.Namespace, config: "Config") -> dict[str, A
     if path.suffix.lower() not in TABLE_SUFFIXES:
         raise BadInput(f"--sections {path}: must end in {', '.join(TABLE_SUFFIXES)}")
     if source := config.blade.plugged("source"):
-        origin = source.file or source.matrices
+        origin = ", ".join(source.plain())
         raise BadInput(
-            f"--sections {path}: the blade comes from {origin}; only a parametric one has sections"
+            f"--sections {path}: the blade is of blade.source ({origin}); only a parametric one has sections"
         )
 
     from bladerub.blade.geometry import BladeShape

@@ -1,6 +1,7 @@
 """``bladerub check-law``: whether a law of the elements does what a law must."""
 
 import argparse
+from operator import attrgetter
 from typing import Any
 
 from bladerub.cli import inputs
@@ -19,10 +20,10 @@ def add_to(commands: Any) -> None:
         check_law,
         blade=False,
         help="check a law of the abradable elements",
-        description="Press elements of the coatings of the study by a law along random histories of depth. "
-        "Name lost and created energy, negative wear, what is no number, and a force that falls as the depth "
-        "grows or disagrees with its stiffness; then compile the law with the time loop. The exit code is 1 "
-        "if there is a problem.",
+        description="Press elements of the study's coatings, of least and greatest E and K, by a law along "
+        "random histories of depth. Name lost and created energy, negative wear, what is no number, and a "
+        "force that falls as the depth grows or disagrees with its stiffness; then compile the law with the "
+        "time loop. The exit code is 1 if there is a problem.",
     )
     text = "Python file of a law, which is run, or the name of a law of the package"
     parser.add_argument("law", metavar="LAW", help=text)
@@ -45,8 +46,8 @@ def check_law(options: argparse.Namespace) -> int:
     cases = [case for case in coating_cases(config) if not case.is_rigid]
     if not cases:
         raise BadInput("coatings: have no abradable layer; a law needs one")
-    softest, stiffest = min(cases, key=lambda case: case.E), max(cases, key=lambda case: case.E)
-    coatings = [run_spec(config, case, 0.2).coating for case in (softest, stiffest, cases[len(cases) // 2])]
+    extremes = {end(cases, key=modulus) for modulus in map(attrgetter, "EK") for end in (min, max)}
+    coatings = [run_spec(config, case, 0.2).coating for case in cases if case in extremes]
     report = check(law, coatings, options.seed)
     figures = {"law": law.label, "histories": report.histories}
     figures["problems"] = [{"what": what, "where": place} for what, place in report.problems.items()]

@@ -61,6 +61,11 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatc
     numbers = re.findall(r"\d+", line.replace(",", ""))
     assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
     assert costs.further["ensemble"][JOBS[0][1]] > 0
+    assert forecast(study, JOBS[:1]).startswith(
+        "60 of 200 runs of the study are to be computed; 1 job, about"
+    )
+    other = forecast(study, [("coating", "2nd_E3_K0.5_theta0")])
+    assert "missing, and not asked for, those of 1 other coating are to be computed" in other
     chart = forecast(study, [("chart_column", None)], simulating={"chart_column", "coating"})
     assert chart.startswith("120 of 200 runs of the study are missing, and not")
     assert chart.endswith(", without the simulations of chart_column")

@@ -97,6 +97,16 @@ def test_the_loop_agrees_with_the_reference(blade, spec, change, law):
 
 
 @pytest.mark.slow
+def test_a_law_that_gives_what_is_no_number_is_named(blade, spec, change):
+    limit = "element.yield_force + element.hardening * wear"
+    assert limit in OWN.source
+    source = OWN.source.replace(limit, f"{limit} + (wear - wear) / (wear - wear)")
+    own = ElementLaw("own", (), source)
+    with pytest.raises(ValueError, match=r"^law own: gives what is no number, in 1\.00 revolutions at E = "):
+        simulate(blade, change(spec, revolutions=1, element_law=own))
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scheme", "step", "within"),
     # the loop takes the force at the start of a step from the corrected displacement, the reference as it was
