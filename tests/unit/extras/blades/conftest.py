@@ -26,5 +26,5 @@ def written(discrete, tmp_path_factory):
 
 
 @pytest.fixture
-def folder(written, tmp_path):
+def matrix_folder(written, tmp_path):
     return Path(shutil.copytree(written, tmp_path / "matrices"))

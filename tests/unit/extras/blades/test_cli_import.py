@@ -21,7 +21,7 @@ from bladerub.io.provenance import provenance
 from bladerub.settings.blade import Mesh
 from bladerub.settings.study import typed
 
-CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
+CONFIG = Path(__file__).parents[4] / "config" / "config.yaml"
 
 
 @pytest.fixture(scope="module")
