@@ -1,5 +1,8 @@
 # What the pages are made from, all committed: reference of the config and its schema, tables that pages quote. Not part
 # of `all`.
+from pathlib import Path
+
+from bladerub.io.folders import CONFIG
 
 
 rule config_reference:
@@ -25,6 +28,7 @@ rule docs_data:
         f"{RESULTS}/logs/docs_data.log",
     params:
         results=RESULTS,
-        laid_over=str(LAID_OVER) if LAID_OVER.files or LAID_OVER.command_line else "",
+        laid_over=[str(file) for file in LAID_OVER.files if Path(file).absolute() != CONFIG.absolute()],
+        values=list(LAID_OVER.command_line),
     script:
         "scripts/docs_data.py"

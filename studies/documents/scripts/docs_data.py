@@ -13,8 +13,8 @@ from docs import snapshots
 from docs.numbers import data_folders
 from docs.numbers.record import record
 
-if snakemake.params.laid_over:
-    raise BadInput(f"docs_data: with {snakemake.params.laid_over}; pages quote the study of the paper alone")
+if others := [*snakemake.params.laid_over, *snakemake.params["values"]]:
+    raise BadInput(f"docs_data: with {', '.join(others)}; pages quote the study of the paper alone")
 for folder in data_folders(Path()):
     snapshots.update(folder, Path(snakemake.params.results))
 record()
