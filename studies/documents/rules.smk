@@ -20,15 +20,24 @@ rule config_reference:
         "scripts/config_reference.py"
 
 
+def study_of_the_paper(wildcards):
+    """All that the default target makes, with the config of the paper: pages quote no other study."""
+    others = [file for file in LAID_OVER.files if Path(file).absolute() != CONFIG.absolute()]
+    with bladerub.io.errors.exit_on_error():
+        if others := [*others, *LAID_OVER.command_line]:
+            raise bladerub.io.errors.BadInput(
+                f"docs_data: with {', '.join(others)}; pages quote the study of the paper"
+            )
+    return rules.all.input  # which is read after this file
+
+
 # Without an output: it takes snapshots anew whenever it is asked for, those of the pages of studies/ as well
 rule docs_data:
     input:
-        lambda wildcards: rules.all.input,  # which is read after this file
+        study_of_the_paper,
     log:
         f"{RESULTS}/logs/docs_data.log",
     params:
         results=RESULTS,
-        laid_over=[str(file) for file in LAID_OVER.files if Path(file).absolute() != CONFIG.absolute()],
-        values=list(LAID_OVER.command_line),
     script:
         "scripts/docs_data.py"

@@ -163,7 +163,7 @@ CONVERGING += [pytest.param(law, 0.0, 1.7, marks=pytest.mark.nightly) for law in
 @pytest.mark.slow
 @pytest.mark.parametrize(("law", "theta", "least"), CONVERGING, ids=lambda law: getattr(law, "name", ""))
 def test_wear_converges_with_the_step(run, law, theta, least):
-    steps = np.array([20, 40, 80])
+    steps = np.array([20, 40, 80, 160])
     values = {"revolutions": 2, "element_law": law}
     *worn, exact = (run(E, K, 0.12, theta, steps_per_element=n, **values).wear for n in (*steps, 640))
     errors = [np.linalg.norm(wear - exact) / np.linalg.norm(exact) for wear in worn]

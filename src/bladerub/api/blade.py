@@ -118,8 +118,8 @@ class Blade(Shown):
     def f_omega(self, speed: Quantity) -> float:
         """Normalise a speed with a unit, such as ``"2200 rpm"``; one that is a number is normalised already.
 
-        A list of speeds gives a list. They have six decimals, as those of a study. Raises `InputError` if one
-        is no speed.
+        A list of speeds gives a list. One with a unit is rounded to six decimals, as those of a study. Raises
+        `InputError` if one is no speed.
         """
         try:
             plain = number("f_omega", speed, lambda _: rounded_frequency(self.f1_hz))

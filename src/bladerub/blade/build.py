@@ -82,7 +82,8 @@ def meshed_blade(blade: Blade, n_nodes: int = N_INTERFACE) -> MeshedBlade:
         if not hasattr(source, "meshed"):
             raise BadInput("blade.source: its blade has no finite elements, which this needs")
         meshed = source.meshed(blade, n_nodes)
-        check_length(blade.length, meshed.length, *source.files(blade.plugged("source"))[:1])
+        origin = next(iter(source.files(blade.plugged("source"))), "blade.source")
+        check_length(blade.length, meshed.length, origin)
         return meshed
     geometry.check(blade, n_nodes)
     shape = geometry.BladeShape.from_config(blade)

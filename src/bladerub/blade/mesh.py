@@ -186,8 +186,8 @@ def _check_points(points, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> 
     if inside_out.any():
         span = zeta[0, 0, np.argmax(inside_out)]
         raise BadInput(
-            f"points of the shape: an element at span {span:.3g} has no volume or is turned inside out; xi, "
-            "eta and zeta must run like right-handed axes, and sections have a chord and a thickness"
+            f"points of the shape: an element at span {span:.3g} has no volume, no numbers, or is turned "
+            "inside out; xi, eta, zeta must run like right-handed axes, and sections have chord and thickness"
         )
 
 

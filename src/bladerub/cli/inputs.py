@@ -32,9 +32,11 @@ class Parser(argparse.ArgumentParser):
         """Exit with code 2."""
         self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
 
-    def option(self, name: str, text: str, kind: Callable | None = None, **keywords: Any) -> None:
-        """Add an option of this kind (default text) with its help text."""
-        action = self.add_argument(name, type=kind, help=text, **keywords)
+    def option(
+        self, name: str, text: str, kind: Callable | None = None, group: Any = None, **keywords: Any
+    ) -> None:
+        """Add an option of this kind (default text) with its help text, perhaps to one of its groups."""
+        action = (group or self).add_argument(name, type=kind, help=text, **keywords)
         self._choices[name] = action.choices or ()
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
@@ -175,7 +177,6 @@ def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[s
         if others := _other_results(config):
             print(f"bladerub {options.name}: with {base}, without results; others: {others}", file=sys.stderr)
         return config, notes
-    print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
     for file in files:
         if not file.is_file():
@@ -183,6 +184,7 @@ def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[s
                 f"{file}: there is no such file, and {results}/{record.FILE} names it; "
                 f"name a config with --config FILE, {base} for the study without it"
             )
+    print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
     law = getattr(config.contact.plugged("law"), "file", None)
     named_law = settings["contact"].get("law", {}).get("file")
@@ -205,7 +207,8 @@ def _other_results(config: "Config") -> str:
     if (study_folder() / config.results / "runs").exists():
         return ""
     files = (file for place in ("*", "*/*") for file in study_folder().glob(f"{place}/{record.FILE}"))
-    return " or ".join(str(made_with) for file in files if (made_with := record.read(file.parent)))
+    records = filter(None, (record.read(file.parent) for file in files))
+    return " or ".join(str(made_with) for made_with in records if not made_with.command_line)
 
 
 def quantity(text: str) -> float | str:

@@ -60,8 +60,8 @@ def add_to(commands: Any) -> None:
     parser.option("--interference", text, quantity, metavar="D")
     speed = parser.add_mutually_exclusive_group(required=True)
     text = "speed: normalised, or with a unit, such as 2200rpm or '38 Hz'"
-    speed.add_argument("--f", type=quantity, metavar="F_OMEGA", help=text)
-    speed.add_argument("--rpm", type=inputs.number, metavar="N", help="the same as --f 'N rpm'")
+    parser.option("--f", text, quantity, speed, metavar="F_OMEGA")
+    parser.option("--rpm", "the same as --f 'N rpm'", inputs.number, speed, metavar="N")
     parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
     text = "what the run is computed on, instead of solver.device"
     parser.option("--device", text, choices=["cpu", *plugins.offered("SOLVERS")])
@@ -70,7 +70,8 @@ def add_to(commands: Any) -> None:
         try:
             option.add_to(parser)
         except argparse.ArgumentError as error:
-            raise plugins.MissingPart(f"{plugins.offered('RUN_OPTIONS')[name]}: {error}") from None
+            place = plugins.offered("RUN_OPTIONS")[name]
+            raise plugins.MissingPart(f"bladerub.{place}: {error}") from None
 
 
 @cache
@@ -79,7 +80,9 @@ def _options() -> dict[str, RunOption]:
     for name, option in options.items():
         if not (isinstance(option, type) and issubclass(option, RunOption)):
             place = plugins.offered("RUN_OPTIONS")[name]
-            raise plugins.MissingPart(f"{place}: must be a class as bladerub.cli.run_option.RunOption")
+            raise plugins.MissingPart(
+                f"bladerub.{place}: must be a class as bladerub.cli.run_option.RunOption"
+            )
     return {name: option() for name, option in options.items()}
 
 
@@ -129,11 +132,11 @@ def run(options: argparse.Namespace) -> None:
     figures = _figures(planned, blade, result)
     inputs.warn_of_residual(options, figures["energy_residual"])
     for name, option in _options().items():
-        if more := option.figures(options, planned, blade, result):
-            if taken := more.keys() & figures.keys():
+        if added := option.figures(options, planned, blade, result):
+            if taken := added.keys() & figures.keys():
                 place = plugins.offered("RUN_OPTIONS")[name]
-                raise plugins.MissingPart(f"{place}: figures: {min(taken)}: is a figure of every run")
-            figures |= more
+                raise plugins.MissingPart(f"bladerub.{place}: figures: {min(taken)}: is a figure already")
+            figures |= added
             figures["units"] |= option.units
     inputs.show(options, figures, _in_words)
 

@@ -110,7 +110,8 @@ def _stable_steps(config: Config) -> Iterator[str]:
         blade, n_elements = read_reduced_blade(model), config.contact.elements
     except OSError:  # damaged
         return
-    longest = (solver.max_time_step or math.inf) * config.contact.plugged("scale", grid.UNSCALED).time
+    scale = config.contact.plugged("scale", grid.UNSCALED).time
+    longest = (solver.max_time_step or math.inf) * scale
     for f_omega in grid.speeds(config):
         passage = 1 / (f_omega * blade.f1_hz * n_elements)
         step = passage / own_steps(passage, solver.steps_per_element or 0, longest)
@@ -118,7 +119,7 @@ def _stable_steps(config: Config) -> Iterator[str]:
         if step >= stable:
             yield (
                 f"solver.{key} = {getattr(solver, key):g}: central_differences needs steps below "
-                f"{stable:.3g} s for the highest mode of this blade"
+                f"{stable / scale:.3g} s for the highest mode of this blade"
             )
             return
 

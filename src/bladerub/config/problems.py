@@ -1,5 +1,6 @@
 """What the models say of a config, in lines that name key, value and what is right."""
 
+import json
 import operator
 import sys
 from collections.abc import Iterable, Iterator, Mapping
@@ -61,6 +62,11 @@ def is_number(value: Any) -> bool:
 _key, _adapter = cache(key_of), cache(TypeAdapter)
 
 
+def _in_yaml(value: Any) -> str:
+    is_word = value is None or isinstance(value, bool)
+    return json.dumps(value) if is_word else format_value(value)
+
+
 def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
     """Write a mistake that pydantic found as ours."""
     parts, group, key, value = _place(mistake["loc"], whole, values)
@@ -68,7 +74,7 @@ def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
     if within is not None:  # of our own validators, which see a list or a group as a whole
         parts, value = [*parts, within], value[within]
     path, kind = key_path(parts), mistake["type"]
-    setting = f"{path} = {format_value(value)}"
+    setting = f"{path} = {_in_yaml(value)}"
     if kind == "missing":
         new = (
             "" if len(parts) > 1 else " (a config of an older version? `bladerub new` writes one that has it)"
@@ -109,7 +115,7 @@ def _wrong(value: Any, key: Key) -> str:
     if key.kind not in NUMBERS:
         is_one = is_number(value) or isinstance(value, str)
         is_single = key.kind == "a list" and not key.entry.models and is_one
-        return key.right() + (f"; write [{format_value(value)}]" if is_single and key.sizes[0] < 2 else "")
+        return key.right() + (f"; write [{_in_yaml(value)}]" if is_single and key.sizes[0] < 2 else "")
     if is_number(value):
         return key.right() + key.meant(value)
     if isinstance(value, str) and (reading := yaml_reading(value)):
@@ -140,7 +146,7 @@ def _compared(config: Mapping[str, Any], key: Key, value: Any, parts: tuple) -> 
             reason = f", {limit.reason}" if limit.reason else ""
             differences.append(f"{limit} = {bound / limit.divisor:g}{reason}")
     for difference in differences:
-        yield f"{key_path(parts)} = {format_value(value)}: must be {difference}"
+        yield f"{key_path(parts)} = {_in_yaml(value)}: must be {difference}"
     entries: Iterable[tuple[Any, Any]] = ()
     if isinstance(value, Mapping):
         entries = value.items()

@@ -16,9 +16,7 @@ from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config, typed, whole
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, modulus_unit
 
-_LIMIT = re.compile(
-    rf"(?: =| from| to| above| below| at least| of at least| at most) ({units.NUMBER})(?: m\b)?"
-)
+_LIMIT = re.compile(rf"(?: =| from| to| above| below| at least| at most) ({units.NUMBER})(?: (?:m|s)\b)?")
 """A number in the unit of the plain number, in what a problem says is right."""
 _READS = {"f1": {"blade", "reduction"}, "modulus_unit": {"contact"}, "blade lengths": {"blade"}}
 """Keys at the top of the config that say what a reference is; `UNSCALED` ones are of ``contact``."""
@@ -114,7 +112,7 @@ def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
                 f"{limit[0]} ({float(limit[1]) / after[path] * float(quantity.number):,.6g} {quantity.unit})"
             )
 
-        if after[path]:
+        if after[path] not in (0, float(quantity.number)):
             right = _LIMIT.sub(in_typed_unit, right)
         return f"{setting} ({quantities[path]}){colon}{right}"
 

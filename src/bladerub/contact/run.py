@@ -125,7 +125,7 @@ class History:
         )
         state, layer = simulation.state, simulation.layer
         ledger = energy.balance(rule, state, initial, simulation.angle_per_step)
-        if not np.isfinite(ledger.residual):
+        if not (np.isfinite(ledger.residual) and np.isfinite(state.wear).all()):
             coating = spec.coating
             raise BadInput(
                 f"law {coating.element_law.label}: gives what is no number, in {elapsed:.2f} revolutions at "

@@ -78,7 +78,6 @@ def exit_on_error() -> Iterator[None]:
 
 def format_value(value: Any) -> str:
     """Write a value of the config on one short line of printable characters."""
-    yaml = {id(None): "null", id(True): "true", id(False): "false"}
-    text = f'"{value}"' if isinstance(value, str) else yaml.get(id(value), repr(value))
+    text = f'"{value}"' if isinstance(value, str) else repr(value)
     text = " ".join("".join(char if char.isprintable() else " " for char in text).split())
     return text if len(text) <= 60 else text[:57] + "..."

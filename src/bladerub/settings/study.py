@@ -11,7 +11,7 @@ from bladerub import plugins
 from bladerub.settings.analysis import Analysis, Figures
 from bladerub.settings.blade import BladeSpec
 from bladerub.settings.coatings import Coatings, RunSpeed
-from bladerub.settings.contact import Contact, casings
+from bladerub.settings.contact import Casing, Contact, casings
 from bladerub.settings.fields import BladeLengths, Form, Limit, Number, Omitted, Section, Speed, Unit
 
 
@@ -91,6 +91,8 @@ def whole() -> type[Config]:
     kinds = {
         key.removeprefix("casings."): offered.pop(key) for key in [*offered] if key.startswith("casings.")
     }
+    for key in kinds.keys() & Casing.model_fields.keys():
+        raise plugins.MissingPart(f"{_place('casings.' + key)} is a key of every casing")
     field = (casings(kinds), ...)
     study = create_model("Config", __base__=Config, __doc__=Config.__doc__, casings=field)
     return _extended(study, "", offered)
@@ -132,9 +134,12 @@ def _extended(model: type[Section], path: str, offered: Mapping[str, Any]) -> ty
         else:
             added[name] = _field(_extended(below.get(name, Section), f"{path}{name}.", offered))
     for key in added.keys() & below.keys() & model.model_fields.keys():
-        place = plugins.offered("SECTIONS")[f"{path}{key}"]
-        raise plugins.MissingPart(f"{place}: {path}{key}: is a key of the config, must have another name")
+        raise plugins.MissingPart(f"{_place(path + key)} is a key of the config, must have another name")
     return create_model(model.__name__, __base__=model, __doc__=model.__doc__, **added) if added else model
+
+
+def _place(key: str) -> str:
+    return f"bladerub.{plugins.offered('SECTIONS')[key]}: {key}:"
 
 
 def _field(kind: Any) -> Any:

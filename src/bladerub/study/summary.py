@@ -79,6 +79,6 @@ def summarise(run: StoredRun, analysis: Analysis, longer: StoredRun | None = Non
 
 def worn_through(wear: float, thickness: float | None) -> str:
     """Say so, to stand behind the worn depth, where that is more than the `thickness` of the layer, m."""
-    if not thickness or wear <= thickness:
+    if not (thickness and wear > thickness):
         return ""
     return f", through the layer of {1e3 * thickness:.4g} mm: the model has no casing below it"

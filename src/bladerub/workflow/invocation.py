@@ -31,7 +31,7 @@ def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[
     laid over the config of the study. Raises `ConfigError` as `bladerub.config.read.read`.
     """
     settings = workflow.config_settings
-    base, laid_over, source = CONFIG, Record(settings.configfiles, settings.config), "--config"
+    base, laid_over, source = CONFIG, Record([*map(str, settings.configfiles)], settings.config), "--config"
     if config and config != settings.overwrite_config:
         base = CONFIG if CONFIG.is_file() and is_whole(CONFIG) else ROOT / CONFIG
         laid_over, source = Record((), config), "config of the module"
@@ -118,8 +118,14 @@ def _print(line: str) -> None:
 
 
 def _made_with(results: str, laid_over: Record) -> Record | None:
-    """Read which config `results` were made with, where nothing is laid over that of the study."""
-    return None if laid_over.files or laid_over.command_line else record.read(Path(results))
+    """Read which config `results` were made with, where nothing is laid over that of the study.
+
+    None if a file of it is not there any more.
+    """
+    if laid_over.files or laid_over.command_line:
+        return None
+    made_with = record.read(Path(results))
+    return made_with if made_with and all(Path(file).is_file() for file in made_with.files) else None
 
 
 _planned: list[tuple[str, Record, Callable[[], None]]] = []
@@ -182,10 +188,9 @@ def stopped() -> None:
 def finished(results: str | Path) -> None:
     """Say after the last job what there is, and what to open."""
     results = Path(results)
-    n_figures = sum(path.suffix == ".png" for path in results.glob("figures/**/*"))
-    figures = "1 figure" if n_figures == 1 else f"{n_figures} figures"
-    tables = f", tables in {results / 'tables'}" if (results / "tables").is_dir() else ""
-    if n_figures:
+    if n_figures := sum(path.suffix == ".png" for path in results.glob("figures/**/*")):
+        figures = "1 figure" if n_figures == 1 else f"{n_figures} figures"
+        tables = f", tables in {results / 'tables'}" if (results / "tables").is_dir() else ""
         _print(f"{figures} in {results / 'figures'}{tables}")
     for page in sorted(results.glob("*.html")):
         _print(f"open {page} in a browser")

@@ -8,13 +8,10 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path.cwd()))  # for docs
-from bladerub.io.errors import BadInput
 from docs import snapshots
 from docs.numbers import data_folders
 from docs.numbers.record import record
 
-if others := [*snakemake.params.laid_over, *snakemake.params["values"]]:
-    raise BadInput(f"docs_data: with {', '.join(others)}; pages quote the study of the paper alone")
 for folder in data_folders(Path()):
     snapshots.update(folder, Path(snakemake.params.results))
 record()

@@ -38,12 +38,14 @@ def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
 
 
 def test_a_copy_brings_its_description_and_the_origin_is_that_of_the_file_now(table, tmp_path):
-    source, target = tmp_path / "a" / "peaks.csv", tmp_path / "peaks.csv"
+    source, target = tmp_path / "a" / "peaks.csv", tmp_path / "longer_peaks.csv"
     for origin in (ORIGIN, ORIGIN | {"provenance_git_commit": "def"}):
         tables.write(source, table, origin)
         tables.copy(source, target)
         assert target.read_bytes() == source.read_bytes()
         assert tables.read_origin(source) == tables.read_origin(target) == origin
+        tables.check(target)
+        assert json.loads(tables.description_path(target).read_text())["url"] == "longer_peaks.csv"
 
 
 def test_every_column_is_described_once_with_datatype_and_unit():

@@ -117,7 +117,7 @@ def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_pat
         monkeypatch.chdir(folder)
         study, notes, laid_over = invocation.read_config(workflow, given)
         assert (study.solver.revolutions, notes) == (30, [])
-        assert list(laid_over.files) == files
+        assert list(laid_over.files) == [*map(str, files)]
         assert by_file or laid_over == Record((), given)
 
 

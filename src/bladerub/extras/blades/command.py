@@ -47,7 +47,7 @@ def add_to(commands: Any) -> None:
     text = "mesh (.inp, .msh or .vtu), sections (.csv, .txt or .dat) or folder of matrices"
     parser.add_argument("file", type=Path, metavar="PATH", help=text)
     text = "nominal speed of the rotor, revolutions a minute (default: figures.nominal_speed of the config)"
-    parser.option("--rpm", text, float, metavar="N")
+    parser.option("--rpm", text, inputs.number, metavar="N")
     for name, key in key_of(settings.Source).fields().items():
         if name not in _PLACES:
             option, text = f"--{name.replace('_', '-')}", key.description.replace("%", "%%")

@@ -82,18 +82,18 @@ def forecast(
     if not n_runs:
         runs = f"all {total['planned']:,} runs of the study are done"
     if further := len(asked - missing.keys()):
-        runs += f", those of {further} other coating{'s' * (further > 1)} are to be computed"
-    if digest and "blade" in dict(jobs):
+        runs += f", and those of {further} coating{'s' * (further > 1)} beside it are asked for"
+    if digest and total["done"] and "blade" in dict(jobs):
         runs += ", if the blade comes out as it is"
     if not jobs:
         return runs
     costs, row = costs_of(config), config.plugged("rotor")
+    mean = sum(costs.runs.values()) / len(costs.runs)
     simulated = seconds = 0.0
     left = {name: 1 - count["done"] / count["planned"] for name, count in counts.items()}
     for rule, coating in jobs:
         seconds += SECONDS_PER_JOB + SECONDS_AT_FIRST.get(rule, 0)
         if rule == "coating":
-            mean = sum(costs.runs.values()) / len(costs.runs)
             simulated += left.get(coating, 1) * (row.blades if row else 1) * costs.runs.get(coating, mean)
         elif rule in costs.further:  # of a coating whose own runs are done, what was listed once is too
             is_listed = (results / "runs" / str(coating) / rule / "manifest.tsv").exists()

@@ -65,7 +65,7 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatc
         "60 of 200 runs of the study are to be computed; 1 job, about"
     )
     other = forecast(study, [("coating", "2nd_E3_K0.5_theta0")])
-    assert "missing, and not asked for, those of 1 other coating are to be computed" in other
+    assert "missing, and not asked for, and those of 1 coating beside it are asked for" in other
     chart = forecast(study, [("chart_column", None)], simulating={"chart_column", "coating"})
     assert chart.startswith("120 of 200 runs of the study are missing, and not")
     assert chart.endswith(", without the simulations of chart_column")
