@@ -291,8 +291,8 @@ rule margins:
         "scripts/margins.py"
 
 
-# The paper speaks of its own blade: one from another program is not judged by its claims
-if "source" not in config["blade"]:
+# The paper speaks of its own blade and coatings: others are not judged by its claims
+if "source" not in config["blade"] and not all(case.variant for case in coating_cases(STUDY)):
     ADDED_TO_ALL["margins"] = rules.margins.output
 
 PICTURES["margins_image"] = {"docs/images/margins.png": Picture(f"{PLOTS}/margins.png", 48)}

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import pandas as pd
@@ -24,7 +24,7 @@ from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.config.problems import checked_quantity
-from bladerub.config.quantities import number
+from bladerub.config.quantities import in_typed_unit, number
 from bladerub.io import tables
 from bladerub.io.equality import equal
 from bladerub.io.optional import package
@@ -121,11 +121,12 @@ class Blade(Shown):
         A list of speeds gives a list. One with a unit is rounded to six decimals, as those of a study. Raises
         `InputError` if one is no speed.
         """
+        plain: Any = None
         try:
             plain = number("f_omega", speed, lambda _: rounded_frequency(self.f1_hz))
             return checked_quantity(plain, _FROM_REST)
         except ValueError as error:
-            raise InputError("speed", speed, str(error)) from None
+            raise InputError("speed", speed, in_typed_unit(str(error), speed, plain)) from None
 
     def check_speed(self, name: str, f_omega: float, f1_hz: float | None = None) -> None:
         """Check that the reduced model holds at the normalised speed `f_omega`, the argument `name`.

@@ -15,6 +15,7 @@ from bladerub.blade.cache import kept_frequency
 from bladerub.config import read as configuration
 from bladerub.config.checks import own_problem
 from bladerub.config.files import Located
+from bladerub.config.quantities import in_typed_unit
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
 from bladerub.settings.coatings import History, HistoryOfDirectContact, HistoryWithFriction, OnCasing
 from bladerub.settings.study import Config, defaults, required, typed
@@ -211,7 +212,9 @@ class Study(Shown):
         plain: Any = {name: checked_number(self.config, name, value) for name, value in values.items()}
         case = grid.listed_case(kind.model_construct(casing=casing, **plain))
         if case.variant and (problem := own_problem(self.config, case)):
-            raise InputError(problem[0], case.own[problem[0]], f"must be {problem[1]}")
+            name, right = problem
+            right = in_typed_unit(f"must be {right}", values[name], plain[name])
+            raise InputError(name, values[name], right)
         return StudyCoating(self.config, case)
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:

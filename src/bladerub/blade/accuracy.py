@@ -66,7 +66,8 @@ def doubts(table: pd.DataFrame, nominal_speed: float | None = None) -> list[str]
     tolerance = f"set reduction.tolerance to {EQ2_ERROR:g} (not for matrices)"
     if eq2 > EQ2_FAR_OFF:
         what = "radius, length and thickness in one unit, the angles in theirs, and the material in Pa, kg/m³"
-        lines.append(f"eq. (2) is up to {percent(eq2)} {off}, as of no blade of metal: are {what}?")
+        cure = "if so, lower reduction.f_omega_max, or raise reduction.fit_speeds"
+        lines.append(f"eq. (2) is up to {percent(eq2)} {off}: are {what}? {cure}")
     elif eq2 > EQ2_ERROR:
         cure = f"raise that and {tolerance}" if beyond else f"lower reduction.f_omega_max, or {tolerance}"
         lines.append(f"eq. (2) is up to {percent(eq2)} {off}{beyond and f', and {beyond}'}: {cure}")

@@ -51,7 +51,7 @@ def add_to(commands: Any) -> None:
     text = "angle of its elements, rad or '8 deg' (default 0): direction of the contact force"
     parser.option("--theta", text, quantity)
     text = "coefficient of Coulomb friction, instead of --theta, or on the rigid casing (default 0)"
-    parser.option("--friction", text, float, metavar="MU")
+    parser.option("--friction", text, inputs.number, metavar="MU")
     text = "of every mode, instead of contact.damping_ratio"
     parser.option("--damping-ratio", text, quantity, metavar="XI")
     text = "instead of contact.layer_thickness: '4 mm', or in m times contact.scale.length"

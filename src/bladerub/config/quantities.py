@@ -2,7 +2,7 @@
 
 import re
 from collections import ChainMap
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache, reduce
 from typing import Any
 
@@ -16,7 +16,7 @@ from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config, typed, whole
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, modulus_unit
 
-_LIMIT = re.compile(rf"(?: =| from| to| above| below| at least| at most) ({units.NUMBER})(?: (?:m|s)\b)?")
+_LIMIT = re.compile(rf"(?: =| from| to| above| below| at least| at most|,) ({units.NUMBER})(?: (?:m|s)\b)?")
 """A number in the unit of the plain number, in what a problem says is right."""
 _READS = {"f1": {"blade", "reduction"}, "modulus_unit": {"contact"}, "blade lengths": {"blade"}}
 """Keys at the top of the config that say what a reference is; `UNSCALED` ones are of ``contact``."""
@@ -105,18 +105,28 @@ def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
         if path not in quantities:
             return problem
         right = right.partition("; this is ")[0]  # a unit was typed, it needs no hint
-        quantity = units.read(quantities[path])
-
-        def in_typed_unit(limit: re.Match) -> str:
-            return (
-                f"{limit[0]} ({float(limit[1]) / after[path] * float(quantity.number):,.6g} {quantity.unit})"
-            )
-
-        if after[path] not in (0, float(quantity.number)):
-            right = _LIMIT.sub(in_typed_unit, right)
+        right = in_typed_unit(right, quantities[path], after[path])
         return f"{setting} ({quantities[path]}){colon}{right}"
 
     return add
+
+
+def in_typed_unit(right: str, value: Any, plain: Any) -> str:
+    """Return what is `right` with its limits in the unit of the quantity `value`, which is `plain`."""
+    quantity = units.read(value)
+    if quantity is None or not isinstance(plain, float) or plain in (0, float(quantity.number)):
+        return right
+    factor = float(quantity.number) / plain
+    return _LIMIT.sub(lambda limit: f"{limit[0]} ({float(limit[1]) * factor:,.6g} {quantity.unit})", right)
+
+
+def mixed(config: Located) -> Iterator[str]:
+    """Yield a line for each list with quantities and plain numbers but 0, as of a decimal comma."""
+    for path, entry in config.walk():
+        values = [item.content for item in entry.content] if isinstance(entry.content, list) else []
+        if any(map(units.read, values)) and any(isinstance(value, int | float) and value for value in values):
+            text = ", ".join(map(str, values))
+            yield f"{path} = [{text}]: must be all with a unit, or none; a decimal has a point"
 
 
 def _sound(config: Located, parts: set[str]) -> Config:

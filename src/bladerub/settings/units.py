@@ -23,7 +23,7 @@ UNITS: dict[str, dict[str, Fraction | int]] = {
     | dict.fromkeys(("ft", "feet"), Fraction(3048, 10_000)),
     "pressure": {"MPa": 10**6, "GPa": 10**9, "kPa": 1000, "Pa": 1, "N/mm2": 10**6, "N/mm²": 10**6}
     | {"bar": 10**5, "psi": Fraction("6894.757293168")},
-    "speed": dict.fromkeys(("rpm", "RPM", "1/min", "rev/min"), Fraction(1, 60))
+    "speed": dict.fromkeys(("rpm", "RPM", "1/min", "rev/min", "U/min", "min-1"), Fraction(1, 60))
     | {"Hz": 1, "rad/s": 1 / (2 * _PI)},
     "rate of speed": {"rpm/s": Fraction(1, 60), "Hz/s": 1},
     "time": {"µs": _MICRO, "us": _MICRO, "μs": _MICRO, "ms": _MILLE, "s": 1, "min": 60},
@@ -55,7 +55,7 @@ _IN_WORDS = {
     "modulus_unit": "times contact.modulus_unit",
 }
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,2})?"
-_QUANTITY = re.compile(rf"\s*({NUMBER})\s*([^\s\d.,+-].*?)\s*", re.S)
+_QUANTITY = re.compile(rf"\s*({NUMBER})\s*(1/min|[^\s\d.,+-].*?)\s*", re.S)
 
 Reference = Callable[[str], float]
 """Gives what ``f1`` (Hz), ``modulus_unit`` (Pa) or ``blade lengths`` (m) is, or a factor of contact.scale."""
@@ -118,7 +118,7 @@ def choices_by_kind() -> dict[str, str]:
 
 def speed_in_words(f_omega: float, f1_hz: float | None) -> str:
     """Write a normalised speed, and in rpm where the first frequency at rest is known."""
-    rpm = f", {60 * f_omega * f1_hz:,.0f} rpm" if f1_hz else ""
+    rpm = f", {60 * f_omega * f1_hz:,.6g} rpm" if f1_hz else ""
     return f"{f_omega:g} of the first frequency at rest{rpm}"
 
 

@@ -115,7 +115,7 @@ def coating_cases(config: Config) -> list[CoatingCase]:
             )
         for case in cases_of(entry):
             if case.name in cases:
-                raise ValueError(f"coatings[{index}]: {case.name} is listed twice; list each coating once")
+                raise ValueError(f"coatings[{index}]: {case.name}: must be listed once")
             cases[case.name] = case
     return list(cases.values())
 

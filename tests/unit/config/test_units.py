@@ -106,6 +106,10 @@ def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
         ("coatings: [{casing: 2nd, E: [3.0e+8], K: [1], theta: [0]}]", 'write "300 MPa"'),
         ("coatings: [{casing: 2nd, E: [1], K: [1], theta: [8 %]}]", "is a share; must be an angle: deg, rad"),
         ("contact: {layer_thickness: 200 mm}", "from 0.0001 (0.1 mm) to 0.1 (100 mm), in m"),
+        (
+            "coatings: [{casing: 2nd, E: [1,2 GPa], K: [1], theta: [0]}]",
+            "E = [1, 2 GPa]: must be all with a unit",
+        ),
         ("solver: {revolutions: 20 s}", "is a time; must be a whole number without a unit"),
     ],
 )

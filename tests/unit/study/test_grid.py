@@ -30,7 +30,7 @@ def test_the_papers_coatings_a_softer_one_and_the_rigid_casing_have_names_that_l
 def test_a_coating_listed_twice_is_named(config):
     entry = {"casing": "2nd", "E": [2.0], "K": [0.5], "theta": [0.15]}
     coatings = [*config.plain()["coatings"], entry]
-    with pytest.raises(ValueError, match=r"coatings\[4\]: 2nd_E2_K0.5_theta0.15 is listed twice"):
+    with pytest.raises(ValueError, match=r"coatings\[4\]: 2nd_E2_K0.5_theta0.15: must be listed once"):
         grid.coating_cases(changed(config, coatings=coatings))
     entry |= {"E": list(range(3, 73)), "K": list(range(71))}
     with pytest.raises(ValueError, match=r"coatings\[4\]: .* to 5033, .* must be 5000 or fewer"):

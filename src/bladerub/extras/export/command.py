@@ -62,7 +62,7 @@ def add_to(commands: Any) -> None:
         "of the decks, normalised (default: 0, half of and the highest of the reduced blade); with "
         "--fe-matrices, of a stiffness in addition to those at these three"
     )
-    parser.option("--speeds", text, float, nargs="+", metavar="F_OMEGA")
+    parser.option("--speeds", text, inputs.number, nargs="+", metavar="F_OMEGA")
     text = "of --fe-matrices: Matrix Market, or what scipy.sparse.load_npz reads (default mtx)"
     parser.option("--matrix-format", text, choices=("mtx", "npz"))
     text = "of the sections: points of the surface (default), or axial position, radius and angles"

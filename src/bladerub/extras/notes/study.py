@@ -63,7 +63,11 @@ def _idle_orders(config: Config) -> Iterator[str]:
             why = f"nodal diameters {diameters} of casing {name} do not excite {idle}"
             key = f"casings.{name}.peak_orders"
             setting = key if config.casings[name].peak_orders else "analysis.peaks.orders"
-            yield f"{setting} = {orders}: {why}; try {excited_orders(config, name)} as {key}"
+            excited = excited_orders(config, name)
+            remedy = (
+                f"try {excited} as {key}" if excited else "none that it excites crosses C1 at these speeds"
+            )
+            yield f"{setting} = {orders}: {why}; {remedy}"
 
 
 def _overlaps(config: Config) -> Iterator[str]:

@@ -40,17 +40,21 @@ class RowOption(RunOption):
         text = "standard deviation of their natural frequencies, relative (default 0)"
         parser.option("--frequency-scatter", text, quantity, metavar="S")
         text = "springs of the disk between neighbours over the stiffness of the first mode (default 0: none)"
-        parser.option("--coupling", text, float, metavar="C")
+        parser.option("--coupling", text, inputs.number, metavar="C")
         parser.option("--seed", "of the draws of the blades, 0 or more (default 1)", int, metavar="N")
 
     def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Convert the scatters; refuse settings without blades, and numbers that cannot be."""
-        from bladerub.config.quantities import key_at, number, references
+        from bladerub.config.quantities import in_typed_unit, key_at, number, references
 
         for name in ("length_scatter", "frequency_scatter"):
             typed = getattr(options, name)
             with inputs.refused(ValueError, because=f"--{name.replace('_', '-')} = {format_value(typed)}: "):
-                setattr(options, name, number(f"rotor.{name}", typed, references(config)))
+                plain = number(path := f"rotor.{name}", typed, references(config))
+                most = key_at(path).ends[1]
+                if isinstance(plain, float) and plain > most:
+                    raise ValueError(in_typed_unit(f"must be at most {most:g}", typed, plain))
+                setattr(options, name, plain)
         for name, value in _settings(options).items():
             option = f"--{name.replace('_', '-')} = {value:g}"
             if options.blades is None:

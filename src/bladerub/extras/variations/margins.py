@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
@@ -106,11 +107,14 @@ def _with_lobes(coating: CoatingMap, prominence: float) -> CoatingMap:
 def table(config: Config, map_paths: Iterable[str | Path], rom_accuracy_path: str | Path) -> pd.DataFrame:
     """Judge every claim in every variation of the study with these files: a row each, with `COLUMNS`.
 
-    A claim that cannot be judged has no row; the log says so.
+    A claim that cannot be judged has no row; the log says so. Raises `BadInput` if all coatings have values
+    of their own.
     """
-    rom_accuracy = read_rom_accuracy(rom_accuracy_path)
-    judged = []
-    for name, (settings, maps) in variations(config, map(read_map, map_paths)).items():
+    rom_accuracy, judged = read_rom_accuracy(rom_accuracy_path), []
+    varied = variations(config, map(read_map, map_paths))
+    if not varied[STUDY].maps:
+        raise BadInput("coatings: margins need one without values of its own, as the claims do")
+    for name, (settings, maps) in varied.items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out
         tables = {"peaks": peak_table.table(settings, maps), "divergence": divergence.table(settings, maps)}
         tables["rom_accuracy"] = rom_accuracy
