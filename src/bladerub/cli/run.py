@@ -23,6 +23,7 @@ if TYPE_CHECKING:  # as in `inputs`
 
 _QUANTITIES = ("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
+_METAL = 100e9  # Pa, more than coatings have
 _UNITS = (
     {"theta": "rad", "f_omega": "f1 at rest", "modulus_unit": "Pa", "rpm": "1/min"}
     | dict.fromkeys(("E", "K"), "contact.modulus_unit")
@@ -163,6 +164,10 @@ def _point_out(options: argparse.Namespace, planned: "StudyRun") -> None:
     if planned.case.law == "theta" and theta > _STEEP:
         ratio = f"the tangential part is {math.tan(theta):.2g} times the normal one"
         print(f"bladerub run: --theta = {theta:g}: in rad, of the contact force {ratio}", file=sys.stderr)
+    modulus = 0.0 if planned.case.is_rigid else planned.case.E * planned.spec.coating.modulus_unit
+    if modulus > _METAL:
+        unit = "a plain number is times contact.modulus_unit, '1200 MPa' is not"
+        print(f"bladerub run: --E = {planned.case.E:g}: is {modulus / 1e9:g} GPa; {unit}", file=sys.stderr)
     if options.output and not options.output.parent.exists():
         print(f"bladerub run: making the folder {options.output.parent}", file=sys.stderr)
 
@@ -230,6 +235,7 @@ def _in_words(figures: dict[str, Any]) -> str:
     }
     rows = {
         "coating": _coating_in_words(figures),
+        "contact": _contact_in_words(figures),
         **({"law": law} if (law := figures["element_law"]) not in (None, "plastic") else {}),
         "speed": f"{figures['f_omega']:.4g} (normalised), {figures['rpm']:,.0f} rpm",
         "peak displacement": "none, the first step left the displacement limit"
@@ -262,6 +268,14 @@ def _coating_in_words(figures: dict[str, Any]) -> str:
         return "none, the casing is rigid"
     unit = figures["modulus_unit"] / 1e6
     return ", ".join(f"{name} = {figures[name]:g} ({figures[name] * unit:.4g} MPa)" for name in ("E", "K"))
+
+
+def _contact_in_words(figures: dict[str, Any]) -> str:
+    """State what decides the contact besides the moduli."""
+    angle = f"μ = {figures['friction']:g}" if figures["theta"] is None else f"θ = {figures['theta']:g} rad"
+    lengths = {"layer": figures["layer_thickness"], "interference": figures["interference"]}
+    words = (f"{name} {1e3 * length:.4g} mm" for name, length in lengths.items() if length is not None)
+    return ", ".join([angle, *words, f"ξ = {figures['damping_ratio']:g}"])
 
 
 def _status_in_words(figures: dict[str, Any]) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from bladerub import plugins
 from bladerub.blade import geometry
+from bladerub.blade.cache import kept_frequency
 from bladerub.blade.model import n_interface
 from bladerub.blade.source import reader
 from bladerub.config.errors import top_key
@@ -17,6 +18,7 @@ from bladerub.io.errors import format_value
 from bladerub.io.folders import study_folder
 from bladerub.settings.contact import AnyCasing
 from bladerub.settings.study import Config
+from bladerub.settings.units import speed_in_words
 from bladerub.study import grid
 from bladerub.study.orders import peak_orders, used_casings
 from bladerub.study.paper import HISTORIES
@@ -254,7 +256,8 @@ def _crossings(config: Config) -> Iterator[str]:
             if order * fastest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
                 yield (
                     f"{key}[{index}] = {order}: must be at least {1 / fastest:.3g} to cross the first "
-                    "frequency below the highest speed; give others in your config, or higher speeds"
+                    f"frequency below the highest speed, {speed_in_words(fastest, kept_frequency(config))}; "
+                    "give others in your config, or higher speeds"
                 )
 
 
