@@ -144,12 +144,13 @@ class Blade(Shown):
     def frequencies(self, f_omega: Quantity | Sequence[Quantity] = 0.0, n_modes: int = 3) -> np.ndarray:
         """Lowest eigenfrequencies (n_modes,) of the reduced model at a speed as of `Blade.f_omega`, Hz.
 
-        At n speeds they are (n, n_modes). Raises ValueError if one is outside the range of the blade.
+        At n speeds they are (n, n_modes). Raises `InputError` if one is outside the range of the blade.
         """
-        if isinstance(f_omega, float | int | str | np.number):
-            return reduced_frequencies(self.reduced, self.f_omega(f_omega), n_modes)
-        speeds = [self.f_omega(speed) for speed in f_omega]
-        return np.stack([reduced_frequencies(self.reduced, speed, n_modes) for speed in speeds])
+        if not isinstance(f_omega, float | int | str | np.number):
+            return np.stack([self.frequencies(speed, n_modes) for speed in f_omega])
+        speed = self.f_omega(f_omega)
+        self.check_speed("f_omega", speed)
+        return reduced_frequencies(self.reduced, speed, n_modes)
 
     def accuracy(self) -> pd.DataFrame:
         """Frequencies (Hz) of finite elements, eq. (2) and reduced model, as in ``rom_accuracy.csv``.

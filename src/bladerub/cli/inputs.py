@@ -3,7 +3,6 @@
 import argparse
 import json
 import os
-import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -217,8 +216,8 @@ def quantity(text: str) -> float | str:
     with suppress(ValueError):
         return float(text)
     if units.read(text) is None:
-        hint = "; a decimal has a point, thousands have nothing" if re.search(r"\d[, ]\d", text) else ""
-        raise argparse.ArgumentTypeError(f"must be a number, or one with a unit: {text!r}{hint}")
+        right = f"must be a number, or one with a unit: {text!r}{units.comma(text)}"
+        raise argparse.ArgumentTypeError(right)
     return text
 
 

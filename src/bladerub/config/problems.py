@@ -128,7 +128,7 @@ def _wrong(value: Any, key: Key) -> str:
         except ValueError as error:
             return str(error)
         return f"needs {key.unit.reference} {NOT_KNOWN}; {key.right()}"
-    return key.right()
+    return key.right() + (units.comma(value) if isinstance(value, str) else "")
 
 
 def _compared(config: Mapping[str, Any], key: Key, value: Any, parts: tuple) -> Iterator[str]:

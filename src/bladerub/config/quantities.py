@@ -16,7 +16,10 @@ from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config, typed, whole
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, modulus_unit
 
-_LIMIT = re.compile(rf"(?: =| from| to| above| below| at least| at most|,) ({units.NUMBER})(?: (?:m|s)\b)?")
+_LIMIT = re.compile(
+    rf"(?: =| from| to| above| below| at least| at most) ({units.NUMBER})(?!,\d)(?: (?:m|s)\b)?"
+    rf"|, ({units.NUMBER}) (?:m|s)\b"
+)
 """A number in the unit of the plain number, in what a problem says is right."""
 _READS = {"f1": {"blade", "reduction"}, "modulus_unit": {"contact"}, "blade lengths": {"blade"}}
 """Keys at the top of the config that say what a reference is; `UNSCALED` ones are of ``contact``."""
@@ -116,8 +119,12 @@ def in_typed_unit(right: str, value: Any, plain: Any) -> str:
     quantity = units.read(value)
     if quantity is None or not isinstance(plain, float) or plain in (0, float(quantity.number)):
         return right
-    factor = float(quantity.number) / plain
-    return _LIMIT.sub(lambda limit: f"{limit[0]} ({float(limit[1]) * factor:,.6g} {quantity.unit})", right)
+
+    def add_typed(limit: re.Match) -> str:
+        typed = float(limit[1] or limit[2]) / plain * float(quantity.number)
+        return f"{limit[0]} ({typed:,.6g} {quantity.unit})"
+
+    return _LIMIT.sub(add_typed, right)
 
 
 def mixed(config: Located) -> Iterator[str]:

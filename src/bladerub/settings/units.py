@@ -150,6 +150,11 @@ def mistaken(unit: str, kind: str | None) -> str:
     return f"has the unknown unit {format_value(unit)}{hint}"
 
 
+def comma(text: str) -> str:
+    """Say what to write instead where digits are separated; empty where they are not."""
+    return "; a decimal has a point, thousands have nothing" if re.search(r"\d[, ]\d", text) else ""
+
+
 def article(kind: str) -> str:
     """Return ``a`` or ``an``."""
     return "an" if kind[0] in "aeiou" else "a"

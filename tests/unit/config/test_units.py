@@ -110,6 +110,7 @@ def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
             "coatings: [{casing: 2nd, E: [1,2 GPa], K: [1], theta: [0]}]",
             "E = [1, 2 GPa]: must be all with a unit",
         ),
+        ('contact: {layer_thickness: "4,5 mm"}', "a decimal has a point"),
         ("solver: {revolutions: 20 s}", "is a time; must be a whole number without a unit"),
     ],
 )

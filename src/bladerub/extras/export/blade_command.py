@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
 from bladerub.io.errors import BadInput
+from bladerub.settings.units import speed_in_words
 
 if TYPE_CHECKING:
     from bladerub.settings.study import Config
@@ -53,7 +54,7 @@ def write(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
             files = [options.mesh]
         else:
             body = (mesh["points"], mesh["cells"], mesh["root_nodes"], config.blade.material)
-            speeds = _speeds(options, blade.f_omega_max)
+            speeds = _speeds(options, blade.f_omega_max, blade.f1_hz)
             files = calculix.write_decks(options.calculix, speeds, blade.f1_hz, *body)
     return _figures(files, mesh["points"], mesh["cells"], len(blade.mass))
 
@@ -68,14 +69,16 @@ def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> dict[st
         raise BadInput("--fe-matrices: the blade of the config is of matrices already, without elements")
     inputs.require_writable("--fe-matrices", folder)
     f_max = config.reduction.f_omega_max
-    speeds = sorted(_speeds(options, f_max))
 
     from bladerub.blade.build import meshed_blade
+    from bladerub.blade.cache import first_frequency
     from bladerub.blade.discrete import by_finite_elements
     from bladerub.blade.model import n_interface
     from bladerub.blade.reduction import fit_speeds
     from bladerub.extras.export.matrices import write_fe_matrices
 
+    f1_hz = first_frequency(config) if options.speeds else 0.0
+    speeds = sorted(_speeds(options, f_max, f1_hz))
     meshed, modes = meshed_blade(config.blade, n_interface(config)), config.reduction.accuracy_modes
     blade = by_finite_elements(meshed, config.blade.material, [*fit_speeds(f_max), *speeds], [], modes)
     files = write_fe_matrices(folder, blade, f_max, f".{options.matrix_format or 'mtx'}")
@@ -104,13 +107,19 @@ def _fields(path: Path) -> dict[str, Any]:
     }
 
 
-def _speeds(options: argparse.Namespace, highest: float) -> list[float]:
+def _speeds(options: argparse.Namespace, highest: float, f1_hz: float) -> list[float]:
     if options.speeds is None:
         return [0.0, highest / 2, highest]
-    for speed in options.speeds:
-        if not 0 <= speed <= highest:
-            raise BadInput(f"--speeds {speed:g}: must be from 0 to {highest:g} (normalised)")
-    return list(dict.fromkeys(options.speeds))
+
+    from bladerub.config.quantities import number
+
+    speeds = []
+    for typed in options.speeds:
+        with inputs.refused(ValueError, because=f"--speeds {typed}: "):
+            speeds.append(number("f_omega", typed, lambda _: f1_hz))
+        if not 0 <= speeds[-1] <= highest:
+            raise BadInput(f"--speeds {typed}: must be from 0 to {speed_in_words(highest, f1_hz)}")
+    return list(dict.fromkeys(speeds))
 
 
 def in_words(figures: dict[str, Any]) -> str:

@@ -59,10 +59,10 @@ def add_to(commands: Any) -> None:
     for option, metavar, text in (*_MOTIONS, *blade_command.FORMS):
         form.add_argument(option, type=Path, metavar=metavar, help=text)
     text = (
-        "of the decks, normalised (default: 0, half of and the highest of the reduced blade); with "
-        "--fe-matrices, of a stiffness in addition to those at these three"
+        "of the decks, normalised or '2200 rpm' (default: 0, half of and the highest of the reduced blade); "
+        "with --fe-matrices, of a stiffness in addition to those at these three"
     )
-    parser.option("--speeds", text, inputs.number, nargs="+", metavar="F_OMEGA")
+    parser.option("--speeds", text, inputs.quantity, nargs="+", metavar="F_OMEGA")
     text = "of --fe-matrices: Matrix Market, or what scipy.sparse.load_npz reads (default mtx)"
     parser.option("--matrix-format", text, choices=("mtx", "npz"))
     text = "of the sections: points of the surface (default), or axial position, radius and angles"

@@ -144,6 +144,9 @@ def test_decks_are_written_for_three_speeds_or_those_named(export, tmp_path):
     assert written == [str(tmp_path / "decks" / name) for name in names]
     export("--calculix", tmp_path / "one", "--speeds", "0.3")
     assert [path.name for path in (tmp_path / "one").iterdir()] == ["blade_0.3000.inp"]
+    export("--calculix", tmp_path / "rpm", "--speeds", "1000 rpm")
+    (deck,) = (tmp_path / "rpm").iterdir()
+    assert 0.05 < float(deck.stem.removeprefix("blade_")) < 0.15
 
 
 @pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
@@ -166,7 +169,7 @@ def test_the_mesh_is_that_of_the_blade_with_its_sets(export, folder, tmp_path, n
 def test_what_cannot_be_written_is_told(at_home, folder, refusal, tmp_path):
     deck = ("--calculix", tmp_path, "--speeds", "0.5")
     line = refusal("export", "--config", folder / "small.yaml", *deck)
-    assert "--speeds 0.5: must be from 0 to 0.4 (normalised)" in line
+    assert "--speeds 0.5: must be from 0 to 0.4 of the first frequency at rest, " in line
     assert not list(tmp_path.iterdir())
 
 
