@@ -127,7 +127,10 @@ def _wrong(value: Any, key: Key) -> str:
             key.convert(quantity, lambda name: 1.0)
         except ValueError as error:
             return str(error)
-        return f"needs {key.unit.reference} {NOT_KNOWN}; {key.right()}"
+        reference = key.unit.reference
+        return (
+            f"needs {reference} {NOT_KNOWN}; {key.right()}" if reference else f"{key.right()}, unit left out"
+        )
     return key.right() + (units.comma(value) if isinstance(value, str) else "")
 
 
