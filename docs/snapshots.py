@@ -1,11 +1,10 @@
 """Snapshots of tables for the pages, small enough for the repository."""
 
-import json
 import tempfile
 from pathlib import Path
 
 from bladerub import plugins
-from bladerub.io import checksum, tables
+from bladerub.io import tables
 from docs.numbers import ROOT
 
 COUNTED = {
@@ -82,7 +81,7 @@ def update(folder: Path, results: Path) -> None:
                 taken = Path(scratch) / snapshot.name
                 take(source, taken)
                 if taken.read_bytes() != snapshot.read_bytes():
-                    copy(taken, snapshot)
+                    tables.copy(taken, snapshot)
 
 
 def source_of(name: str, results: Path) -> Path | None:
@@ -99,22 +98,11 @@ def source_of(name: str, results: Path) -> Path | None:
     return next((place for place in places if place.exists()), None)
 
 
-def copy(source: Path, target: Path) -> None:
-    """Copy the table at `source` to `target`, and its description, which then names that; both whole."""
-    tables.check(source)
-    content, described = source.read_bytes(), json.loads(tables.description_path(source).read_bytes())
-    named = json.dumps(
-        described | {"url": target.name, "schema:sha256": checksum.BLANK}, indent=2, ensure_ascii=False
-    )
-    target.write_bytes(content)
-    tables.description_path(target).write_bytes(checksum.seal(f"{named}\n".encode(), content))
-
-
 def take(source: Path, target: Path) -> None:
     """Take the table at `source` as the snapshot `target`, as `COUNTED`, `KEPT` and `ROWS` say."""
     name, only = source.stem, ROWS.get(target.stem, {})
     if name not in COUNTED | KEPT and not only:
-        copy(source, target)
+        tables.copy(source, target)
         return
     table, origin, digits = tables.read(source), tables.read_origin(source), None
     for column, value in only.items():

@@ -48,12 +48,16 @@ def write(
     """
     path = Path(path)
     described = described_columns(*columns_files)
-    description = json.dumps(_description(path.name, table, described, origin), indent=2, ensure_ascii=False)
+    description = _as_text(_description(path.name, table, described, origin))
     content = table.to_csv(index=False, float_format=float_format, lineterminator="\n").encode()
     with atomic.writing(path, "wb") as stream:
         stream.write(content)
     with atomic.writing(description_path(path), "wb") as stream:
-        stream.write(checksum.seal(f"{description}\n".encode(), content))
+        stream.write(checksum.seal(description, content))
+
+
+def _as_text(description: Mapping[str, Any]) -> bytes:
+    return f"{json.dumps(description, indent=2, ensure_ascii=False)}\n".encode()
 
 
 def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") -> "pd.DataFrame":
@@ -96,6 +100,18 @@ def description_path(path: str | Path) -> Path:
     """Return where the description of the table at `path` is."""
     path = Path(path)
     return path.with_name(f"{path.name}{DESCRIPTION}")
+
+
+def copy(source: str | Path, target: str | Path) -> None:
+    """Copy the table at `source` to `target`, and its description, which then names that.
+
+    Raises as `check`.
+    """
+    check(source)
+    content, described = Path(source).read_bytes(), json.loads(description_path(source).read_bytes())
+    named = described | {"url": Path(target).name, "schema:sha256": checksum.BLANK}
+    Path(target).write_bytes(content)
+    description_path(target).write_bytes(checksum.seal(_as_text(named), content))
 
 
 def read_origin(path: str | Path) -> dict[str, str]:

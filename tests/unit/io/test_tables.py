@@ -8,7 +8,6 @@ from bladerub import plugins
 from bladerub.io import tables
 from bladerub.io.errors import BadInput, DamagedFile
 from bladerub.io.folders import ROOT
-from docs import snapshots
 
 ORIGIN = {"provenance_software": "bladerüb 1", "provenance_git_commit": "abc"}
 
@@ -38,11 +37,11 @@ def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
     assert (amplitude["datatype"], amplitude["schema:unitText"]) == ("number", "m")
 
 
-def test_a_snapshot_names_itself_and_its_origin_is_that_of_the_file_now(table, tmp_path):
+def test_a_copy_brings_its_description_and_the_origin_is_that_of_the_file_now(table, tmp_path):
     source, target = tmp_path / "a" / "peaks.csv", tmp_path / "longer_peaks.csv"
     for origin in (ORIGIN, ORIGIN | {"provenance_git_commit": "def"}):
         tables.write(source, table, origin)
-        snapshots.copy(source, target)
+        tables.copy(source, target)
         assert target.read_bytes() == source.read_bytes()
         assert tables.read_origin(source) == tables.read_origin(target) == origin
         tables.check(target)
