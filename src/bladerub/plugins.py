@@ -92,6 +92,11 @@ def loaded(kind: str) -> dict[str, Any]:
     return {name: load(place) for name, place in offered(kind).items()}
 
 
+def refusal(kind: str, name: str, reason: str) -> MissingPart:
+    """Make the error of something that is there, and cannot be added."""
+    return MissingPart(f"bladerub.{offered(kind)[name]}: {reason}")
+
+
 def files(name: str) -> list[Path]:
     """Return the files of a name, such as ``columns.csv``, in the folders."""
     return sorted(EXTRAS.glob(f"*/{name}"))

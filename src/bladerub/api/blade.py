@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 import pandas as pd
@@ -23,8 +23,7 @@ from bladerub.blade.files import accuracy_path, is_built, mesh_path
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
-from bladerub.config.problems import checked_quantity
-from bladerub.config.quantities import in_typed_unit, number
+from bladerub.config.quantities import checked_number
 from bladerub.io import tables
 from bladerub.io.equality import equal
 from bladerub.io.optional import package
@@ -121,12 +120,10 @@ class Blade(Shown):
         A list of speeds gives a list. One with a unit is rounded to six decimals, as those of a study. Raises
         `InputError` if one is no speed.
         """
-        plain: Any = None
         try:
-            plain = number("f_omega", speed, lambda _: rounded_frequency(self.f1_hz))
-            return checked_quantity(plain, _FROM_REST)
+            return checked_number("f_omega", speed, _FROM_REST, lambda _: rounded_frequency(self.f1_hz))
         except ValueError as error:
-            raise InputError("speed", speed, in_typed_unit(str(error), speed, plain)) from None
+            raise InputError("speed", speed, str(error)) from None
 
     def check_speed(self, name: str, f_omega: float, f1_hz: float | None = None) -> None:
         """Check that the reduced model holds at the normalised speed `f_omega`, the argument `name`.

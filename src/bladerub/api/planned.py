@@ -1,13 +1,11 @@
 """What can be asked of a study: one of its coatings, and one run."""
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 from bladerub.api.arguments import InputError, over
 from bladerub.blade.cache import first_frequency, kept_frequency
 from bladerub.config import quantities
 from bladerub.config.checks import most_revolutions
-from bladerub.config.problems import checked_quantity
 from bladerub.contact.spec import RunSpec
 from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config
@@ -120,12 +118,10 @@ class StudyCoating:
 
 def checked_number(config: Config, name: str, value: Quantity) -> float:
     """Return the argument `name` as a plain number within its bounds."""
-    plain: Any = None
     try:
-        plain = quantities.number(name, value, quantities.references(config))
-        return checked_quantity(plain, QUANTITIES[name], hint=plain is value)
+        return quantities.checked_number(name, value, QUANTITIES[name], quantities.references(config))
     except ValueError as error:
-        raise InputError(name, value, quantities.in_typed_unit(str(error), value, plain)) from None
+        raise InputError(name, value, str(error)) from None
 
 
 def _moduli(config: Config, case: CoatingCase) -> str:

@@ -14,7 +14,7 @@ from bladerub.cli import inputs
 from bladerub.cli.inputs import quantity, refused
 from bladerub.cli.run_option import RunOption
 from bladerub.io.errors import BadInput
-from bladerub.settings.units import speed_in_words
+from bladerub.settings.units import doubted_modulus, speed_in_words
 
 if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.blade import Blade
@@ -23,7 +23,6 @@ if TYPE_CHECKING:  # as in `inputs`
 
 _QUANTITIES = ("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
-_METAL = 100e9  # Pa, more than coatings have
 _UNITS = (
     {"theta": "rad", "f_omega": "f1 at rest", "modulus_unit": "Pa", "rpm": "1/min"}
     | dict.fromkeys(("E", "K"), "contact.modulus_unit")
@@ -71,8 +70,7 @@ def add_to(commands: Any) -> None:
         try:
             option.add_to(parser)
         except argparse.ArgumentError as error:
-            place = plugins.offered("RUN_OPTIONS")[name]
-            raise plugins.MissingPart(f"bladerub.{place}: {error}") from None
+            raise plugins.refusal("RUN_OPTIONS", name, str(error)) from None
 
 
 @cache
@@ -80,10 +78,8 @@ def _options() -> dict[str, RunOption]:
     options = plugins.loaded("RUN_OPTIONS")
     for name, option in options.items():
         if not (isinstance(option, type) and issubclass(option, RunOption)):
-            place = plugins.offered("RUN_OPTIONS")[name]
-            raise plugins.MissingPart(
-                f"bladerub.{place}: must be a class as bladerub.cli.run_option.RunOption"
-            )
+            reason = "must be a class as bladerub.cli.run_option.RunOption"
+            raise plugins.refusal("RUN_OPTIONS", name, reason)
     return {name: option() for name, option in options.items()}
 
 
@@ -135,8 +131,7 @@ def run(options: argparse.Namespace) -> None:
     for name, option in _options().items():
         if added := option.figures(options, planned, blade, result):
             if taken := added.keys() & figures.keys():
-                place = plugins.offered("RUN_OPTIONS")[name]
-                raise plugins.MissingPart(f"bladerub.{place}: figures: {min(taken)}: is a figure already")
+                raise plugins.refusal("RUN_OPTIONS", name, f"figures: {min(taken)}: is a figure already")
             figures |= added
             figures["units"] |= option.units
     inputs.show(options, figures, _in_words)
@@ -165,9 +160,8 @@ def _point_out(options: argparse.Namespace, planned: "StudyRun") -> None:
         ratio = f"the tangential part is {math.tan(theta):.2g} times the normal one"
         print(f"bladerub run: --theta = {theta:g}: in rad, of the contact force {ratio}", file=sys.stderr)
     modulus = 0.0 if planned.case.is_rigid else planned.case.E * planned.spec.coating.modulus_unit
-    if modulus > _METAL:
-        unit = "a plain number is times contact.modulus_unit, '1200 MPa' is not"
-        print(f"bladerub run: --E = {planned.case.E:g}: is {modulus / 1e9:g} GPa; {unit}", file=sys.stderr)
+    if doubt := doubted_modulus(modulus):
+        print(f"bladerub run: --E = {planned.case.E:g}: {doubt}", file=sys.stderr)
     if options.output and not options.output.parent.exists():
         print(f"bladerub run: making the folder {options.output.parent}", file=sys.stderr)
 

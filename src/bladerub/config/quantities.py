@@ -10,7 +10,7 @@ from bladerub.blade.cache import first_frequency
 from bladerub.config.errors import top_key
 from bladerub.config.files import Located
 from bladerub.config.keys import Key, key_of
-from bladerub.config.problems import problems
+from bladerub.config.problems import checked_quantity, problems
 from bladerub.settings import units
 from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config, typed, whole
@@ -60,6 +60,19 @@ def number(name: str, value: Any, reference: units.Reference) -> Any:
     key = key_of(QUANTITIES[name]) if name in QUANTITIES else key_at(name)
     plain = key.convert(quantity, reference)
     return round(plain, SPEED_DECIMALS) if name == "f_omega" else plain
+
+
+def checked_number(name: str, value: Any, kind: Any, reference: units.Reference) -> float:
+    """Return `value` as `number` does, within the bounds of the type `kind`.
+
+    Raises ValueError, which says what would be right, with its limits in the unit that was typed.
+    """
+    plain = None
+    try:
+        plain = number(name, value, reference)
+        return checked_quantity(plain, kind, hint=plain is value)
+    except ValueError as error:
+        raise ValueError(in_typed_unit(str(error), value, plain)) from None
 
 
 def key_at(path: str) -> Key:

@@ -92,7 +92,8 @@ def whole() -> type[Config]:
         key.removeprefix("casings."): offered.pop(key) for key in [*offered] if key.startswith("casings.")
     }
     for key in kinds.keys() & Casing.model_fields.keys():
-        raise plugins.MissingPart(f"{_place('casings.' + key)} is a key of every casing")
+        place = f"casings.{key}"
+        raise plugins.refusal("SECTIONS", place, f"{place}: is a key of every casing")
     field = (casings(kinds), ...)
     study = create_model("Config", __base__=Config, __doc__=Config.__doc__, casings=field)
     return _extended(study, "", offered)
@@ -134,12 +135,9 @@ def _extended(model: type[Section], path: str, offered: Mapping[str, Any]) -> ty
         else:
             added[name] = _field(_extended(below.get(name, Section), f"{path}{name}.", offered))
     for key in added.keys() & below.keys() & model.model_fields.keys():
-        raise plugins.MissingPart(f"{_place(path + key)} is a key of the config, must have another name")
+        place = f"{path}{key}"
+        raise plugins.refusal("SECTIONS", place, f"{place}: is a key of the config, must have another name")
     return create_model(model.__name__, __base__=model, __doc__=model.__doc__, **added) if added else model
-
-
-def _place(key: str) -> str:
-    return f"bladerub.{plugins.offered('SECTIONS')[key]}: {key}:"
 
 
 def _field(kind: Any) -> Any:

@@ -134,6 +134,12 @@ def pressure_in_words(pascal: float) -> str:
     return f"{pascal / 1e9:.4g} GPa" if pascal >= 1e9 else f"{pascal / 1e6:.4g} MPa"
 
 
+def doubted_modulus(pascal: float) -> str:
+    """Doubt an E as of a metal, in MPa perhaps where it is in ``contact.modulus_unit``; empty of others."""
+    remedy = 'a plain number is times contact.modulus_unit, "1200 MPa" is not'
+    return f"{pressure_in_words(pascal)}, more than coatings have; {remedy}" if pascal > 100e9 else ""
+
+
 def moduli_in_words(pascal: Sequence[float]) -> str:
     """Write the range of Young moduli, to stand behind something else; empty of none."""
     return f", E from {pressure_in_words(min(pascal))} to {pressure_in_words(max(pascal))}" if pascal else ""

@@ -1,6 +1,3 @@
-import shutil
-from pathlib import Path
-
 import numpy as np
 import pytest
 from blade_fixtures import blade_config, twisted_config  # noqa: F401 (fixtures)
@@ -23,8 +20,3 @@ def written(discrete, tmp_path_factory):
     folder = tmp_path_factory.mktemp("written")
     write_fe_matrices(folder, discrete, 0.4, ".npz")
     return folder
-
-
-@pytest.fixture
-def matrix_folder(written, tmp_path):
-    return Path(shutil.copytree(written, tmp_path / "matrices"))

@@ -32,22 +32,27 @@ def config():
     return BladeSpec(blade=blade, reduction=reduction)
 
 
-def imported(matrix_folder, **source):
-    return import_matrices(Source(matrices=str(matrix_folder), **source), REDUCTION)
+@pytest.fixture
+def folder(written, tmp_path):
+    return Path(shutil.copytree(written, tmp_path / "matrices"))
 
 
-def of_folder(config, matrix_folder):
-    return config.replaced("blade.source", Source(matrices=str(matrix_folder)))
+def imported(folder, **source):
+    return import_matrices(Source(matrices=str(folder), **source), REDUCTION)
 
 
-def edit(matrix_folder, name, change):
+def of_folder(config, folder):
+    return config.replaced("blade.source", Source(matrices=str(folder)))
+
+
+def edit(folder, name, change):
     """Change a matrix of the folder."""
-    path = matrix_folder / f"{name}.npz"
+    path = folder / f"{name}.npz"
     sparse.save_npz(path, sparse.csc_array(change(sparse.load_npz(path))))
 
 
-def edit_nodes(matrix_folder, change):
-    change(pd.read_csv(matrix_folder / "nodes.csv")).to_csv(matrix_folder / "nodes.csv", index=False)
+def edit_nodes(folder, change):
+    change(pd.read_csv(folder / "nodes.csv")).to_csv(folder / "nodes.csv", index=False)
 
 
 def test_the_blade_comes_back_from_its_matrices(config, discrete, tmp_path):
@@ -103,15 +108,15 @@ def test_rows_of_clamped_nodes_other_axes_and_units(discrete, tmp_path):
         assert abs(theirs - ours).max() <= 1e-12 * abs(ours).max()
 
 
-def report(matrix_folder, config, units="SI"):
-    source = Source(matrices=str(matrix_folder), matrix_units=units)
+def report(folder, config, units="SI"):
+    source = Source(matrices=str(folder), matrix_units=units)
     config = config.replaced("reduction.modes_per_speed", 6)
     given = import_matrices(source, config.reduction)
     return matrix_report(source, given, reduce_given(given.blade, config))
 
 
-def test_figures_are_those_of_the_matrices_and_wrong_units_get_a_warning(matrix_folder, discrete, config):
-    figures, mesh = report(matrix_folder, config), discrete.layout.mesh
+def test_figures_are_those_of_the_matrices_and_wrong_units_get_a_warning(folder, discrete, config):
+    figures, mesh = report(folder, config), discrete.layout.mesh
     assert figures["nodes"] == len(mesh.mesh.points)
     assert figures["unknowns"] == discrete.mass.shape[0]
     assert figures["speeds"] == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
@@ -125,67 +130,62 @@ def test_figures_are_those_of_the_matrices_and_wrong_units_get_a_warning(matrix_
     assert 1e-6 < max(figures["error_eq2"]) < 0.01
     assert figures["campbell_ratio"] > 1
     assert figures["warnings"] == []
-    figures = report(matrix_folder, config, "mm-tonne")
+    figures = report(folder, config, "mm-tonne")
     assert figures["f1_hz"] == pytest.approx(discrete.frequency[0])
     (wrong_units,) = figures["warnings"]
     assert wrong_units.endswith("are the matrices in mm-tonne, and the nodes in m?")
 
 
-def test_another_speed_is_refused_and_nodes_without_clamped_ones_tell_no_length(
-    matrix_folder, discrete, config
-):
+def test_another_speed_is_refused_and_nodes_without_clamped_ones_tell_no_length(folder, discrete, config):
     omega = 2 * np.pi * discrete.frequency[0] * 0.4
-    imported(matrix_folder, omega_max=float(1.0009 * omega))
+    imported(folder, omega_max=float(1.0009 * omega))
     with pytest.raises(BadInput, match=r"is 0.44 of the blade's first .*f_omega_max = 0.4 must be that"):
-        imported(matrix_folder, omega_max=float(1.1 * omega))
-    edit_nodes(matrix_folder, lambda nodes: nodes[nodes.clamped == 0].drop(columns="clamped"))
-    given = imported(matrix_folder)
+        imported(folder, omega_max=float(1.1 * omega))
+    edit_nodes(folder, lambda nodes: nodes[nodes.clamped == 0].drop(columns="clamped"))
+    given = imported(folder)
     assert not given.is_rooted
     assert not given.mass_is_complete
     assert 0.1 < given.blade.layout.length < 0.199
-    assert build(of_folder(config, matrix_folder)).reduced.length == 0.2
+    assert build(of_folder(config, folder)).reduced.length == 0.2
     config = config.replaced("blade.length", 0.1)
     with pytest.raises(BadInput, match=r"blade.length = 0.1: must be that of the blade in .*/matrices"):
-        build(of_folder(config, matrix_folder))
+        build(of_folder(config, folder))
 
 
-def test_a_blade_is_of_its_files_not_of_the_material(config, matrix_folder):
-    ours = of_folder(config, matrix_folder)
+def test_a_blade_is_of_its_files_not_of_the_material(config, folder):
+    ours = of_folder(config, folder)
     first = made_from(ours)
     assert made_from(ours.replaced("blade.material.density", 1000.0)) == first
-    edit(matrix_folder, "mass", lambda mass: 2 * mass)
+    edit(folder, "mass", lambda mass: 2 * mass)
     assert made_from(ours) != first
 
 
-def entry(matrix_folder, name, factor):
-    content = sparse.load_npz(matrix_folder / f"{name}.npz").tolil()
+def entry(folder, name, factor):
+    content = sparse.load_npz(folder / f"{name}.npz").tolil()
     content[4, 6] *= factor
-    edit(matrix_folder, name, lambda _: content)
+    edit(folder, name, lambda _: content)
 
 
-def interface(matrix_folder, change):
-    edit_nodes(matrix_folder, lambda nodes: nodes.assign(interface=change(nodes.interface)))
+def interface(folder, change):
+    edit_nodes(folder, lambda nodes: nodes.assign(interface=change(nodes.interface)))
 
 
-def text(matrix_folder, name, content):
-    (matrix_folder / "mass.npz").unlink()
-    (matrix_folder / name).write_text(content)
+def text(folder, name, content):
+    (folder / "mass.npz").unlink()
+    (folder / name).write_text(content)
 
 
-def offsets_that_go_back(matrix_folder):
+def offsets_that_go_back(folder):
     """Scipy reads the arrays of an archive without a look at them."""
-    with np.load(matrix_folder / "mass.npz") as content:
+    with np.load(folder / "mass.npz") as content:
         arrays = dict(content)
     arrays["indptr"][5] = 10**6
-    np.savez_compressed(matrix_folder / "mass.npz", **arrays)
+    np.savez_compressed(folder / "mass.npz", **arrays)
 
 
-def bomb(matrix_folder):
+def bomb(folder):
     """An archive of a few hundred kB that unpacks to 1.2 GB."""
-    with (
-        ZipFile(matrix_folder / "mass.npz", "a", ZIP_DEFLATED) as file,
-        file.open("padding.npy", "w") as stream,
-    ):
+    with ZipFile(folder / "mass.npz", "a", ZIP_DEFLATED) as file, file.open("padding.npy", "w") as stream:
         for _ in range(1200):
             stream.write(bytes(10**6))
 
@@ -208,11 +208,11 @@ HEADER = "%%MatrixMarket matrix coordinate real general\n"
         (lambda at: shutil.copy(at / "mass.npz", at / "stiffness_at_0.5.npz"), "0.5.npz: must be named"),
     ],
 )
-def test_broken_folders_are_refused_with_file_and_culprit(matrix_folder, change, said):
-    change(matrix_folder)
+def test_broken_folders_are_refused_with_file_and_culprit(folder, change, said):
+    change(folder)
     with pytest.raises(BadInput, match=said) as caught:
-        imported(matrix_folder)
-    assert str(caught.value).startswith(str(matrix_folder))
+        imported(folder)
+    assert str(caught.value).startswith(str(folder))
 
 
 def test_keys_that_do_not_go_together_are_refused():
@@ -270,56 +270,56 @@ def of_nodes(order):
         ),
     ],
 )
-def test_matrices_in_another_order_are_refused(matrix_folder, order, names, said):
-    rows = order(sparse.load_npz(matrix_folder / "mass.npz").shape[0] // 3)
+def test_matrices_in_another_order_are_refused(folder, order, names, said):
+    rows = order(sparse.load_npz(folder / "mass.npz").shape[0] // 3)
     for name in names:
-        edit(matrix_folder, name, lambda matrix: matrix[rows][:, rows])
+        edit(folder, name, lambda matrix: matrix[rows][:, rows])
     with pytest.raises(BadInput, match=said):
-        imported(matrix_folder)
+        imported(folder)
 
 
-def test_rounded_coordinates_and_lumped_mass_are_accepted_but_no_nodes_in_other_places(matrix_folder):
-    table = pd.read_csv(matrix_folder / "nodes.csv").round({"x": 5, "y": 5, "z": 5})
-    edit(matrix_folder, "mass", lambda mass: sparse.diags_array(mass.diagonal()))
-    table.to_csv(matrix_folder / "nodes.csv", index=False)
-    imported(matrix_folder)
+def test_rounded_coordinates_and_lumped_mass_are_accepted_but_no_nodes_in_other_places(folder):
+    table = pd.read_csv(folder / "nodes.csv").round({"x": 5, "y": 5, "z": 5})
+    edit(folder, "mass", lambda mass: sparse.diags_array(mass.diagonal()))
+    table.to_csv(folder / "nodes.csv", index=False)
+    imported(folder)
     exchanged, mirrored = table.copy(), table.assign(y=table.y.where(table.index != 149, -table.y))
     places = ["x", "y", "z"]
     exchanged.loc[[149, 150], places] = table.loc[[150, 149], places].to_numpy()
     for changed, said in ((exchanged, "rows 150, 151: must be exchanged"), (mirrored, "row 150: must be in")):
-        changed.to_csv(matrix_folder / "nodes.csv", index=False)
+        changed.to_csv(folder / "nodes.csv", index=False)
         with pytest.raises(BadInput, match=f"nodes.csv: {said}"):
-            imported(matrix_folder)
+            imported(folder)
 
 
 @pytest.mark.parametrize("held", [(1.0, 1.0), (1.0, 1e-12), (1e20, 1e-12)])
-def test_numbers_on_the_diagonal_of_clamped_rows(matrix_folder, discrete, held):
+def test_numbers_on_the_diagonal_of_clamped_rows(folder, discrete, held):
     """With ones dozens of modes at 1/2π Hz come first; a penalty puts them above all others."""
-    is_held = np.repeat(pd.read_csv(matrix_folder / "nodes.csv").clamped.to_numpy() > 0, 3)
-    edit_nodes(matrix_folder, lambda nodes: nodes.drop(columns="clamped"))
-    for path in matrix_folder.glob("stiffness_at_*"):
+    is_held = np.repeat(pd.read_csv(folder / "nodes.csv").clamped.to_numpy() > 0, 3)
+    edit_nodes(folder, lambda nodes: nodes.drop(columns="clamped"))
+    for path in folder.glob("stiffness_at_*"):
         path.unlink()
     for name in ALL:
         full = sparse.lil_array((is_held.size, is_held.size))
-        full[np.ix_(~is_held, ~is_held)] = sparse.load_npz(matrix_folder / f"{name}.npz").toarray()
+        full[np.ix_(~is_held, ~is_held)] = sparse.load_npz(folder / f"{name}.npz").toarray()
         full[is_held, is_held] = held[name == "mass"]
-        sparse.save_npz(matrix_folder / f"{name}.npz", full.tocsc())
+        sparse.save_npz(folder / f"{name}.npz", full.tocsc())
     if held[0] > 1:
-        assert imported(matrix_folder).blade.frequency[0] == pytest.approx(discrete.frequency[0], rel=1e-6)
+        assert imported(folder).blade.frequency[0] == pytest.approx(discrete.frequency[0], rel=1e-6)
     else:
         with pytest.raises(BadInput, match=rf"rest.npz: {is_held.sum()} coordinates are joined to no other"):
-            imported(matrix_folder)
+            imported(folder)
 
 
-def test_a_blade_that_is_unstable_at_speed_or_that_nothing_holds_is_refused(matrix_folder, discrete):
+def test_a_blade_that_is_unstable_at_speed_or_that_nothing_holds_is_refused(folder, discrete):
     square = (2 * np.pi * discrete.frequency[:2].mean()) ** 2  # makes the first mode alone unstable
-    edit(matrix_folder, "stiffness_max", lambda stiffness: stiffness - square * discrete.mass)
+    edit(folder, "stiffness_max", lambda stiffness: stiffness - square * discrete.mass)
     with pytest.raises(BadInput, match=r"stiffness_max.npz: is not positive definite: a mode"):
-        imported(matrix_folder)
+        imported(folder)
     loose = Solid(discrete.layout.mesh.mesh, TITANIUM)
-    edit(matrix_folder, "mass", lambda _: loose.mass)
-    for path in matrix_folder.glob("stiffness_*"):
-        edit(matrix_folder, path.stem, lambda _: loose.tangent(np.zeros(loose.free.size)))
-    edit_nodes(matrix_folder, lambda nodes: nodes.drop(columns="clamped"))
+    edit(folder, "mass", lambda _: loose.mass)
+    for path in folder.glob("stiffness_*"):
+        edit(folder, path.stem, lambda _: loose.tangent(np.zeros(loose.free.size)))
+    edit_nodes(folder, lambda nodes: nodes.drop(columns="clamped"))
     with pytest.raises(BadInput, match=r"rest.npz: is singular or indefinite: its lowest mode moves"):
-        imported(matrix_folder)
+        imported(folder)
