@@ -52,7 +52,7 @@ def _cells(verified: VerifiedRun) -> list[Any]:
     return [
         *(*coating, verified.run.f_omega, verified.status, *verified.error),
         *(verified.spread or (None,) * len(Differences._fields)),
-        *(verified.is_sensitive, verified.energy_residual, verified.speedup, verified.seconds.study),
+        *(verified.is_sensitive, verified.energy_residual, verified.speedup, verified.seconds["study"]),
         variant,
     ]
 
@@ -60,13 +60,8 @@ def _cells(verified: VerifiedRun) -> list[Any]:
 def summary(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
     """Summarise the errors of one run or more, in plain values that JSON can hold; infinite ones are None.
 
-    ``n``, and ``within_1_percent``, the fraction within `TOLERANCE` in wear and spectral peak; ``wear_l2``,
-    ``peak``, ``revolution_peak``, ``energy_residual``, each from `_distribution`; ``worst``, the name of the
-    worst run in each of the first three; ``against_paper_scheme``, the three for the differences from the
-    paper's scheme, and under ``uncertainty`` the three for its own error; ``speedup_at_equal_error``, the
-    median over the runs that have one and are not sensitive, and ``left_out``, how many runs are not in that
-    median; ``seconds``, mean cost of a run of each kind; ``beyond``, the runs beyond `TOLERANCE` in any of
-    the three, the worst first.
+    The keys are those that docs/how-to/how_sure.md describes; ``speedup_at_equal_error`` is the median over
+    the runs that have one and are not sensitive, and of the runs ``beyond`` the worst comes first.
     """
     within = [max(run.error.wear_l2, run.error.peak) <= TOLERANCE for run in verified]
     speedups = [run.speedup for run in verified if run.speedup is not None and not run.is_sensitive]

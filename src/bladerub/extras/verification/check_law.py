@@ -59,7 +59,5 @@ def _in_words(figures: dict[str, Any]) -> str:
     head = f"{figures['law']}: {figures['histories']} histories"
     if not figures["problems"]:
         return f"{head}, no problem; it compiles with the time loop"
-    lines = [f"{head}, {len(figures['problems'])} kinds of problem; values in SI units"]
-    return "\n".join(
-        [*lines, *(f"- {problem['what']} ({problem['where']})" for problem in figures["problems"])]
-    )
+    problems = (f"\n- {problem['what']} ({problem['where']})" for problem in figures["problems"])
+    return f"{head}, {len(figures['problems'])} kinds of problem; values in SI units{''.join(problems)}"

@@ -81,8 +81,7 @@ def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
     Two numbers agree where they differ by no more than `COVERAGE` times the root of the sum of squares of
     their uncertainties. A compared number without one counts as exact; ``value`` is NaN of one that the
     table lacks. Raises ValueError if the folders have no table and number in common, or a number is none, is
-    there twice or has another unit; OSError if a table cannot be read or lacks a
-    column.
+    there twice or has another unit; OSError if a table cannot be read or lacks a column.
     """
     import pandas as pd  # which commands that read no table do without
 
@@ -93,15 +92,21 @@ def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
         reference_table = tables.read(path)
         if not {*READ, "uncertainty", "unit"} <= set(reference_table) or not (folder / path.name).is_file():
             continue
-        table = tables.read(folder / path.name, READ).filter([*READ, "unit", "uncertainty"])
-        for name, content in ((Path(reference) / path.name, reference_table), (folder / path.name, table)):
+        table = tables.read(folder / path.name, READ)
+        for name, content in ((path, reference_table), (folder / path.name, table)):
             _check_numbers(name, content)
-        both = reference_table.merge(table, how="left", on="number", suffixes=("_reference", ""))
-        _check_units(folder / path.name, both)
-        parts.append(_judged(both).assign(table=path.stem))
+        compared = table.reindex(columns=[*READ, "unit", "uncertainty"])
+        both = reference_table.merge(compared, how="left", on="number", suffixes=("_reference", ""))
+        if "unit" in table:
+            _check_units(folder / path.name, both)
+        joint = np.hypot(both.uncertainty_reference, both.uncertainty.fillna(0.0))
+        both["allowed"] = COVERAGE * joint + _DIGITS * both.value_reference.abs()
+        both["agrees"] = (both.value - both.value_reference).abs() <= both.allowed
+        both = both.assign(table=path.stem, unit=both.unit_reference, reference=both.value_reference)
+        parts.append(both[COLUMNS])
     if not any(part.value.notna().any() for part in parts):
         raise ValueError(f"{folder}: has no number in common with {reference}")
-    return pd.concat(parts, ignore_index=True)[COLUMNS]
+    return pd.concat(parts, ignore_index=True)
 
 
 def _check_numbers(path: Path, table: "pd.DataFrame") -> None:
@@ -116,18 +121,7 @@ def _check_numbers(path: Path, table: "pd.DataFrame") -> None:
 
 
 def _check_units(path: Path, both: "pd.DataFrame") -> None:
-    if "unit_reference" not in both:
-        return
     other = both[both.value.notna() & (both.unit.astype(str) != both.unit_reference.astype(str))]
     if len(other):
         first = other.iloc[0]
         raise ValueError(f"{path}: {first.number} is in {first.unit}; must be in {first.unit_reference}")
-
-
-def _judged(both: "pd.DataFrame") -> "pd.DataFrame":
-    joint = both.uncertainty
-    if "uncertainty_reference" in both:
-        joint = np.hypot(both.uncertainty_reference, both.uncertainty.fillna(0.0))
-    allowed = COVERAGE * joint + _DIGITS * both.value_reference.abs()
-    agrees = (both.value - both.value_reference).abs() <= allowed
-    return both.rename(columns={"value_reference": "reference"}).assign(allowed=allowed, agrees=agrees)

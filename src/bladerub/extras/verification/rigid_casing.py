@@ -61,16 +61,10 @@ ALTERNATIVES = (
 )
 """What is tried at `PLAIN_SPEED` and at the peaks; `NEARBY` at the speeds next to them."""
 
-COLUMNS = [
-    *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude", "amplitude_change"),
-    *("largest_revolution", "median_revolution", "largest_displacement"),
-]
-"""Columns of ``rigid_convergence.csv``, described in ``columns.csv``."""
-
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
-    """Repeat runs of the study on the rigid casing: a row for each speed and alternative, with `COLUMNS`.
+    """Repeat runs of the study on the rigid casing: a row for each speed and alternative (``columns.csv``).
 
     `peaks` is a table ``peaks.csv``, of which the peaks of the rigid casing are looked at.
     """
@@ -103,7 +97,7 @@ def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFr
                     "largest_displacement": outcome.revolution_peak[last].max(),
                 }
             )
-    return pd.DataFrame(rows, columns=COLUMNS)
+    return pd.DataFrame(rows)
 
 
 def _listed(config: Config, peaks: pd.DataFrame) -> Iterator[tuple[float, float, tuple[Alternative, ...]]]:

@@ -15,14 +15,12 @@
 import math
 import time
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
@@ -38,7 +36,7 @@ from bladerub.extras.verification.differences import Differences, differences, l
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, element_law, run_spec
 from bladerub.study.maps import read_map
-from bladerub.study.solver import row_of
+from bladerub.study.solver import each_done, row_of
 
 TOLERANCE = 0.01
 """Differences beyond this are listed by run."""
@@ -59,15 +57,6 @@ class Solved(NamedTuple):
     seconds: float  # of CPU time
 
 
-class Seconds(NamedTuple):
-    """CPU time of one run, s: the study's, with finer steps, the paper's scheme, that with finer steps."""
-
-    study: float
-    finer: float
-    paper: float
-    paper_finer: float
-
-
 @dataclass(frozen=True)
 class VerifiedRun:
     """The error of one run, see the definitions of this module."""
@@ -79,7 +68,7 @@ class VerifiedRun:
     paper_uncertainty: Differences
     spread: Differences | None  # largest of neighbouring starts; None within tolerance and if unbounded
     energy_residual: float
-    seconds: Seconds
+    seconds: dict[str, float]  # CPU time: study, with finer steps, paper's scheme, that finer
     speedup: float | None  # by wear, or by spectral peak where nothing wears
 
     @property
@@ -126,10 +115,9 @@ def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:
 def verify_runs(
     blade: ReducedBlade, config: Config, runs: Sequence[StudyRun], jobs: int = 1
 ) -> Iterator[VerifiedRun]:
-    """Verify `jobs` runs at once, and yield them in their order; raises as `verify_run`."""
+    """Verify `jobs` runs at once, and yield each as it is done; raises as `verify_run`."""
     compile_kernel(bool(config.contact.tip_turns), blade.n_interface, element_law(config))
-    with threadpool_limits(1, "blas"), ThreadPoolExecutor(jobs) as pool:  # the loop holds no global lock
-        yield from pool.map(partial(verify_run, blade, config), runs)
+    yield from (verified for _, verified in each_done(partial(verify_run, blade, config), runs, jobs))
 
 
 def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRun:
@@ -143,37 +131,35 @@ def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRu
     outcome = solve(spec)
     steps = round(passage / outcome.blades[0].time_step)
     finer = solve(with_steps(spec, REFINEMENT * steps))
+    paper_spec = replace(spec, scheme="central_differences")
+    longest = STABLE_PART * 2 / modes_at(blade, spec.f_omega).omega[-1]
+    paper_steps = math.ceil(passage / longest)
+    paper, paper_finer = (solve(with_steps(paper_spec, n * paper_steps)) for n in (1, REFINEMENT))
 
     def compare(one: Solved, other: Solved) -> Differences:
         return differences(one.blades, other.blades, analysis)
-
-    paper = replace(spec, scheme="central_differences")
-    longest = STABLE_PART * 2 / modes_at(blade, spec.f_omega).omega[-1]
-    paper_steps = math.ceil(passage / longest)
-    paper_outcome = solve(with_steps(paper, paper_steps))
-    paper_finer = solve(with_steps(paper, REFINEMENT * paper_steps))
 
     error = compare(outcome, finer)
     spread = None
     if max(error) > TOLERANCE and outcome.blades[0].status == "completed":
         starts = (replace(spec, initial_displacement=start) for start in NEIGHBOURS)
         spread = largest(compare(solve(start), outcome) for start in starts)
-    paper_differences = compare(paper_outcome, paper_finer)
     measure = Differences._fields.index("wear_l2" if finer.blades[0].wear.any() else "peak")
     unbounded = "unbounded" in (outcome.blades[0].status, finer.blades[0].status)
+    solved = {"study": outcome, "finer": finer, "paper": paper, "paper_finer": paper_finer}
     return VerifiedRun(
         run=run,
         status="unbounded" if unbounded else "completed",
         error=error,
         against_paper=compare(outcome, paper_finer),
-        paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in paper_differences)),
+        paper_uncertainty=Differences(*np.divide(compare(paper, paper_finer), REFINEMENT - 1).tolist()),
         spread=spread,
         energy_residual=outcome.energy_residual,
-        seconds=Seconds(outcome.seconds, finer.seconds, paper_outcome.seconds, paper_finer.seconds),
+        seconds={name: run_solved.seconds for name, run_solved in solved.items()},
         speedup=speedup_at_equal_error(
             error[measure],
             outcome.seconds,
-            compare(paper_outcome, finer)[measure],
+            compare(paper, finer)[measure],
             compare(paper_finer, finer)[measure],
             paper_finer.seconds,
         ),

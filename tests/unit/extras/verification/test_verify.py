@@ -12,7 +12,7 @@ from bladerub.extras.verification import accuracy, verify
 from bladerub.extras.verification.accuracy import summary
 from bladerub.extras.verification.compare import compare as compare_tables
 from bladerub.extras.verification.differences import UNBOUNDED, Differences, differences
-from bladerub.extras.verification.verify import NEIGHBOURS, Seconds, StudyRun, VerifiedRun
+from bladerub.extras.verification.verify import NEIGHBOURS, StudyRun, VerifiedRun
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.maps import write_map
 
@@ -132,7 +132,7 @@ def run_with(f_omega, wear, peak=0.0, revolution_peak=0.0, **changes):
     run = StudyRun(CoatingCase("2nd", 2.0, 0.5, 0.0), f_omega)
     error, fine = Differences(wear, peak, revolution_peak), Differences(0.001, 0.0, 0.0)
     values = {"run": run, "status": "completed", "error": error, "energy_residual": 1e-4, "speedup": 7.0}
-    values |= {"against_paper": fine, "paper_uncertainty": fine, "seconds": Seconds(0.25, 1.0, 1.0, 4.0)}
+    values |= {"against_paper": fine, "paper_uncertainty": fine, "seconds": {"study": 0.25, "finer": 1.0}}
     values |= {"spread": fine if max(error) > 0.01 else None}
     return VerifiedRun(**values | changes)
 
