@@ -20,7 +20,7 @@ import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -48,14 +48,6 @@ _JOB_OF_RUNS = ("study.job", "study.maps")
 """What the job of the runs and the map of a coating imports."""
 
 
-class _Cost(NamedTuple):
-    """CPU time of one run as the study makes it, s."""
-
-    run: float  # of its length in the config
-    longer: float  # of the repetition that follows its growth, 0 if there is none
-    is_near_a_peak: bool
-
-
 def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
     """Estimate the time of the study `config` from `DRAWN` of its runs, on so many `cores`.
 
@@ -68,9 +60,9 @@ def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         cost_of_run = partial(_cost, blade, config, Path(folder))
         costs = [cost for _, cost in each_done(cost_of_run, runs[step // 2 :: step], n_threads)]
-    per_run = float(np.mean([cost.run for cost in costs]))
-    totals = np.array([cost.run + cost.longer for cost in costs])
-    peak_totals = totals[[cost.is_near_a_peak for cost in costs]]
+    seconds_per_run, longer, is_near_a_peak = np.transpose(costs)
+    totals = seconds_per_run + longer
+    peak_totals = totals[is_near_a_peak == 1]
     further = plugins.loaded("COSTS").values()
     members = sum(cost(config, case) for cost in further for case in coating_cases(config))
     modules = [*_JOB_OF_RUNS, *(place.partition(":")[0] for place in plugins.offered("COSTS").values())]
@@ -81,7 +73,7 @@ def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
         + starts
     )
     return {
-        "seconds_per_run": per_run,
+        "seconds_per_run": float(seconds_per_run.mean()),
         "runs": len(runs),
         "members": members,
         "cores": cores,
@@ -89,7 +81,8 @@ def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
     }
 
 
-def _cost(blade: ReducedBlade, config: Config, folder: Path, run: StudyRun) -> _Cost:
+def _cost(blade: ReducedBlade, config: Config, folder: Path, run: StudyRun) -> tuple[float, float, bool]:
+    """CPU time of a run and of the repetition that follows its growth, if any, s; whether a peak is near."""
     file, spec = f"{run.name.replace('/', '_')}.h5", run_spec(config, run.case, run.f_omega)
     planned = planned_run(config, spec, file, False, run.row)
     start = time.thread_time()  # other processes and threads do not count
@@ -101,7 +94,7 @@ def _cost(blade: ReducedBlade, config: Config, folder: Path, run: StudyRun) -> _
         _make(blade, config, run.case, longer, folder / "longer")
         share = 1 - spec.revolutions / longer.spec.revolutions
         followed = share * (time.thread_time() - run_end)
-    return _Cost(run_end - start, followed, _is_near_a_peak(blade, config, run))
+    return run_end - start, followed, _is_near_a_peak(blade, config, run)
 
 
 def _make(blade: ReducedBlade, config: Config, case: CoatingCase, planned: PlannedRun, folder: Path) -> bool:

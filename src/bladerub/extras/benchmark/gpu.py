@@ -3,13 +3,13 @@
 import time
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any, NamedTuple
+from operator import attrgetter
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.extras.benchmark import record
 from bladerub.extras.gpu.batch import Device
@@ -28,20 +28,8 @@ COLUMNS = [
 """Columns of the table, described in ``columns.csv``."""
 
 
-class Measures(NamedTuple):
-    """What is compared of a run."""
-
-    status: str
-    n_steps: int
-    n_contact_steps: int
-    peak: np.ndarray  # In each revolution, m
-    residual: float  # Of the energy ledger
-
-
-def measures(result: RunResult) -> Measures:
-    """Keep of a result what is compared."""
-    counts = (result.n_steps, result.n_contact_steps)
-    return Measures(result.status, *counts, result.revolution_peak, result.energy.residual)
+_COMPARED = attrgetter("status", "n_steps", "n_contact_steps", "revolution_peak", "energy.residual")
+"""What is kept of a result, since all of them would fill the memory."""
 
 
 def compare(
@@ -72,20 +60,18 @@ def compare(
 
     watched: Device = partial(device, watch=kernel.append)
     start = time.perf_counter()
-    gpu_measures = {
-        number: measures(result) for number, result in simulate_many(blade, described, watched, note)
-    }
+    gpu_runs = {n: _COMPARED(result) for n, result in simulate_many(blade, described, watched, note)}
     seconds = time.perf_counter() - start
     numbers = np.linspace(0, len(described) - 1, min(n_compared, len(described))).astype(int).tolist()
     report(f"{len(numbers)} runs on this processor")
 
-    def timed_run(number: int) -> tuple[Measures, float]:
+    def timed_run(number: int) -> tuple[tuple, float]:
         start = time.thread_time()  # other processes and threads do not count
         result = simulate(blade, described[number])
-        return measures(result), time.thread_time() - start
+        return _COMPARED(result), time.thread_time() - start
 
     cpu_runs = dict(each_done(timed_run, numbers, record.cores()))
-    steps = sum(run.n_steps for run in gpu_measures.values())
+    steps = sum(n_steps for _, n_steps, *_ in gpu_runs.values())
     return {
         **{name: record.describe()[name] for name in ("processor", "cores")},
         "gpu_runs": len(described),
@@ -95,22 +81,20 @@ def compare(
         "gpu_steps_per_second": steps / sum(kernel),
         "compared_runs": len(numbers),
         "seconds_per_run": float(np.mean([cost for _, cost in cpu_runs.values()])),
-        **agreement([(gpu_measures[number], cpu_runs[number][0]) for number in numbers]),
+        **agreement([(gpu_runs[number], cpu_runs[number][0]) for number in numbers]),
     }
 
 
-def agreement(pairs: list[tuple[Measures, Measures]]) -> dict[str, float]:
-    """Compare runs on the GPU with the same here, see `compare`."""
-    errors = [float(np.nanmax(np.abs(on_gpu.peak / on_cpu.peak - 1))) for on_gpu, on_cpu in pairs]
-    median, p95, p99, largest = np.quantile(errors, [0.5, 0.95, 0.99, 1.0]).tolist()
-    names = {"same_status": "status", "same_steps": "n_steps", "same_contact_steps": "n_contact_steps"}
+def agreement(pairs: list[tuple[tuple, tuple]]) -> dict[str, float]:
+    """Compare what is kept of runs on the GPU with the same here, see `compare`."""
+    columns = ["status", "steps", "contact_steps", "peak", "residual"]
+    on_gpu, here = (pd.DataFrame(runs, columns=columns) for runs in zip(*pairs, strict=True))
+    errors = [np.nanmax(np.abs(error)) for error in on_gpu.peak / here.peak - 1]
+    quantiles = {"median": 0.5, "p95": 0.95, "p99": 0.99, "largest": 1.0}
     return {
-        **{key: sum(getattr(a, name) == getattr(b, name) for a, b in pairs) for key, name in names.items()},
-        "peak_error_median": median,
-        "peak_error_p95": p95,
-        "peak_error_p99": p99,
-        "peak_error_largest": largest,
-        "largest_residual": max(on_gpu.residual for on_gpu, _ in pairs),
+        **{f"same_{name}": int((on_gpu[name] == here[name]).sum()) for name in columns[:3]},
+        **{f"peak_error_{name}": float(np.quantile(errors, share)) for name, share in quantiles.items()},
+        "largest_residual": float(on_gpu.residual.max()),
     }
 
 

@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numba import njit
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
@@ -83,31 +84,23 @@ def benchmark(
             )
     progress("timing runs drawn from the study")
     study = estimate(blade, config, cores or record.cores())
-    median = statistics.median
-    flops = {name: useful_flops(blade, spec) for name, spec in specs.items()}
-    return {
+    tables = {name: pd.DataFrame(rows) for name, rows in seconds.items()}
+    figures = {
         **record.describe(),
         "rounds": rounds,
         "modes": set_up(blade, touching)[0].omega.size,
         "contact_share": share,
         "steps_per_second": {
-            loop: {name: 1 / median(row[loop] for row in rows) for name, rows in seconds.items()}
-            for loop in ("numpy", "numba", "production")
+            loop: {name: 1 / table[loop].median() for name, table in tables.items()} for loop in record.LOOPS
         },
-        **{
-            f"ratio_to_{loop}{ending}": median(row[loop] / row["production"] for row in seconds[name])
-            for name, ending in (("contact", ""), ("free", "_free"))
-            for loop in ("numpy", "numba")
-        },
-        "peak_flops": median(operations),
-        **{
-            f"fraction_of_peak_{name}": median(
-                flops[name] / row["production"] / rate for row, rate in zip(rows, operations, strict=True)
-            )
-            for name, rows in seconds.items()
-        },
-        **study,
+        "peak_flops": statistics.median(operations),
     }
+    for name, ending in (("contact", ""), ("free", "_free")):
+        table, flops = tables[name], useful_flops(blade, specs[name])
+        for loop in ("numpy", "numba"):
+            figures[f"ratio_to_{loop}{ending}"] = (table[loop] / table.production).median()
+        figures[f"fraction_of_peak_{name}"] = (flops / table.production / operations).median()
+    return figures | study
 
 
 @njit

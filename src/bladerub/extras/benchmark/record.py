@@ -13,11 +13,11 @@ from bladerub.io import tables
 
 MACHINE = ["processor", "vector_bits", "cores"]
 """Columns that tell machines apart."""
-_LOOPS = ("numpy", "numba", "production")
+LOOPS = ("numpy", "numba", "production")
 _WHOLE = ["peak_flops", "seconds_per_run", "study_minutes", "cost_of_stress"]
 COLUMNS = [
     *(*MACHINE, "motion"),
-    *(f"steps_per_second_{loop}" for loop in _LOOPS),
+    *(f"steps_per_second_{loop}" for loop in LOOPS),
     *("ratio_to_numpy", "ratio_to_numba", "fraction_of_peak", *_WHOLE),
 ]
 """Columns of the table, described in ``columns.csv``."""
@@ -58,7 +58,7 @@ def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
     """
     records = []
     for motion, ending in (("contact", ""), ("free", "_free")):
-        steps = [figures["steps_per_second"][loop][motion] for loop in _LOOPS]
+        steps = [figures["steps_per_second"][loop][motion] for loop in LOOPS]
         ratios = [figures[f"ratio_to_{loop}{ending}"] for loop in ("numpy", "numba")]
         of_machine, totals = ([figures.get(name) for name in names] for names in (MACHINE, _WHOLE))
         records.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *totals])

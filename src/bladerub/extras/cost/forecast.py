@@ -7,13 +7,7 @@ from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any
 
-from bladerub.extras import inventory
-from bladerub.extras.job_times import (
-    GROWING,
-    SECONDS_AT_FIRST,
-    SECONDS_PER_JOB,
-    SECONDS_PER_REVOLUTION,
-)
+from bladerub.extras import inventory, job_times
 from bladerub.io.errors import message_for
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases
@@ -92,7 +86,7 @@ def forecast(
     simulated = seconds = 0.0
     left = {name: 1 - count["done"] / count["planned"] for name, count in counts.items()}
     for rule, coating in jobs:
-        seconds += SECONDS_PER_JOB + SECONDS_AT_FIRST.get(rule, 0)
+        seconds += job_times.SECONDS_PER_JOB + job_times.SECONDS_AT_FIRST.get(rule, 0)
         if rule == "coating":
             simulated += left.get(coating, 1) * (row.blades if row else 1) * costs.runs.get(coating, mean)
         elif rule in costs.further:  # of a coating whose own runs are done, what was listed once is too
@@ -100,7 +94,7 @@ def forecast(
             simulated += 0 if is_listed and not left[coating] else costs.further[rule].get(coating, 0)
     revolutions = config.solver.revolutions
     longer = max(config.analysis.divergence.confirmation_revolutions - revolutions, 0)
-    seconds += simulated * (revolutions + GROWING * longer) * SECONDS_PER_REVOLUTION
+    seconds += simulated * (revolutions + job_times.GROWING * longer) * job_times.SECONDS_PER_REVOLUTION
     minutes = max(seconds / 60 / (cores or 1), 1)
     machine = f"on {cores} cores" if cores and cores > 1 else "of one core"
     unknown = sorted(set(simulating) - {"coating", *costs.further})

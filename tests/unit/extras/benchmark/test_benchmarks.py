@@ -43,7 +43,7 @@ SMALL = {
 def test_runs_and_members_cost_what_the_drawn_ones_do(blade, monkeypatch):
     """Runs at 0.16 grow and are near a peak, others take twice as long."""
     study = configuration.read("config/config.yaml", command_line=SMALL)
-    costs = {True: estimate._Cost(1.0, 3.0, True), False: estimate._Cost(2.0, 0.0, False)}
+    costs = {True: (1.0, 3.0, True), False: (2.0, 0.0, False)}
     monkeypatch.setattr(estimate, "_cost", lambda blade, config, folder, run: costs[run.f_omega == 0.16])
     monkeypatch.setattr(estimate, "_start", lambda imported: 0.5)
     monkeypatch.setattr(estimate, "DRAWN", 1000)  # all
@@ -90,7 +90,7 @@ SMALL_FOR_GPU = SMALL | {
 
 def test_differences_are_counted_and_the_largest_revolution_of_a_run_taken():
     def measured(status="completed", n_steps=10, peak=(1.0, 2.0)):
-        return gpu.Measures(status, n_steps, 5, np.array(peak), 1e-5)
+        return (status, n_steps, 5, np.array(peak), 1e-5)
 
     same = (measured(), measured())
     other = (measured(peak=(1.0, 2.02)), measured(status="unbounded", n_steps=9, peak=(1.01, 2.0)))
