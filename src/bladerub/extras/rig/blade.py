@@ -11,7 +11,6 @@
 import math
 from dataclasses import replace
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -84,30 +83,21 @@ def simulate_blade_passes(
     for number in range(1, rig.passes + 1):
         depth, rise = number * rig.incursion, sample.rise()
         sample.stand(depth)
-        result = sample.one_pass(rule)
+        impulse, largest, largest_pressure, amplitude = sample.one_pass(rule)
         balance = energy.balance(rule, simulation.state, 0.0, simulation.angle_per_step)
-        normal = math.cos(rig.theta) * result.impulse
-        tangential = math.sin(rig.theta) * result.impulse + (balance.wear - taken) / rig.speed
+        normal = math.cos(rig.theta) * impulse
+        tangential = math.sin(rig.theta) * impulse + (balance.wear - taken) / rig.speed
         per_time = rig.speed / sample.length
         wear = sample.worn_depth()
         passes.append(
             (
                 *(number, depth, normal * per_time, tangential * per_time, normal, tangential),
-                *(result.largest_pressure, wear, wear - worn, balance.wear - taken, rise, balance.residual),
-                *(math.cos(rig.theta) * result.largest, result.amplitude),
+                *(largest_pressure, wear, wear - worn, balance.wear - taken, rise, balance.residual),
+                *(math.cos(rig.theta) * largest, amplitude),
             )
         )
         worn, taken = wear, balance.wear
     return pd.DataFrame(passes, columns=list(COLUMNS))
-
-
-class _Pass(NamedTuple):
-    """Contact force of all nodes together in a pass, along the elements, and what the blade does."""
-
-    impulse: float  # N s
-    largest: float  # N
-    largest_pressure: float  # Of a node, Pa
-    amplitude: float  # Half the range of the radial displacement of node 1, m
 
 
 class _Sample:
@@ -150,8 +140,12 @@ class _Sample:
         gaps = stator.initial_gap[:, : len(self._nodes)].T
         stator.minimum_gap[:] = minimum_gap(gaps, self._spec.tip.half_width)
 
-    def one_pass(self, rule: Recurrence) -> _Pass:
-        """Let the blade pass over the sample, and turn on to where it started."""
+    def one_pass(self, rule: Recurrence) -> tuple[float, float, float, float]:
+        """Let the blade pass over the sample, and turn on to where it started.
+
+        Returns the impulse of the contact force of all nodes together (N s), the largest such force (N), the
+        largest pressure of a node (Pa), and half the range of the radial displacement of node 1 (m).
+        """
         simulation, n_elements = self._simulation, self._spec.coating.n_elements
         displacement = np.empty(n_elements)
         borders = sorted({0, *range(self._first, self._last + 1), n_elements})
@@ -165,12 +159,9 @@ class _Sample:
             forces.append(simulation.state.normal_force.ravel()[: len(self._nodes)].copy())
         of_nodes = np.array(forces)
         total = of_nodes.sum(axis=1)
-        return _Pass(
-            float(total.sum()) * rule.time_step * simulation.steps_per_element,
-            float(total.max()),
-            float((of_nodes / self._area).max()),
-            0.5 * (highest - lowest),
-        )
+        impulse = float(total.sum()) * rule.time_step * simulation.steps_per_element
+        pressure = float((of_nodes / self._area).max())
+        return impulse, float(total.max()), pressure, 0.5 * (highest - lowest)
 
     def worn_depth(self) -> float:
         """Mean worn depth of the sample, m."""

@@ -11,7 +11,7 @@
 import math
 from collections.abc import Iterable
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -45,26 +45,31 @@ def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> p
     element = law.element(rig.coating, np.array(area), width / steps / rig.speed)
     offset = np.linspace(edge(tip), -edge(tip), (elements + 1) * steps + 1)
     share, below = coverage(tip, offset), relief(tip, offset)
-    heat = _Heat(rig, law, area) if hasattr(law, "Layer") else None
-    wear, rows = 0.0, []
+    layer = None
+    if hasattr(law, "Layer"):  # that of the time loop, with a row for the element
+        layer = law.Layer(law, rig.coating, np.full(LANES, area), rig.track / rig.speed)
+        heat = at_rest(1, 1, layer.numbers)
+    wear, rise, strength, rows = 0.0, math.nan, 1.0, []
     for number in range(1, rig.passes + 1):
         depth = number * rig.incursion
-        rise, strength = (heat.rise, heat.strength) if heat else (math.nan, 1.0)
-        passage = _one_passage(law, element, depth - below, wear)
-        forces, energy = strength * passage.force, strength * passage.energy
+        if layer:
+            rise, strength = float(layer.rise(heat)[0, 0]), float(heat.strength[0, 0])
+        cold_forces, worn, cold_energy, residual = _one_passage(law, element, depth - below, wear)
+        forces, energy = strength * cold_forces, strength * cold_energy
         tip_force = np.trapezoid(share * forces, dx=1 / steps)
-        if heat:
-            heat.add(energy, math.sin(rig.theta) * tip_force * width)
+        if layer:  # it is warmed in the pass, and cools until the next
+            heat.taken[0, 0], heat.taken[0, LANES] = energy, math.sin(rig.theta) * tip_force * width
+            layer.rest(heat, 0, 1)
         normal = math.cos(rig.theta) * tip_force
         tangential = math.sin(rig.theta) * tip_force + energy / width
         rows.append(
             (
                 *(number, depth, normal, tangential, normal * coated / rig.speed),
-                *(tangential * coated / rig.speed, forces.max() / area, passage.wear, passage.wear - wear),
-                *(energy * coated / width, rise, passage.residual),
+                *(tangential * coated / rig.speed, forces.max() / area, worn, worn - wear),
+                *(energy * coated / width, rise, residual),
             )
         )
-        wear = passage.wear
+        wear = worn
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -90,19 +95,14 @@ def compared(rigs: Iterable[Rig], passes: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["rig", "quantity", "computed", "measured_on_rig", "assumed", "source"])
 
 
-class _Passage(NamedTuple):
-    """What an element goes through in one passage of the tip, without heat."""
-
-    force: np.ndarray  # (n,): N
-    wear: float  # After it, m
-    energy: float  # That it takes up, J
-    residual: float  # Of the work of the tip on it, over the work exchanged
-
-
-def _one_passage(law: ModuleType, element: Any, depth: np.ndarray, wear: float) -> _Passage:
+def _one_passage(
+    law: ModuleType, element: Any, depth: np.ndarray, wear: float
+) -> tuple[np.ndarray, float, float, float]:
     """Press an element along `depth` (n,) below its original surface (m); it was worn by `wear` before.
 
-    The edge of the tip comes down on it in the first step, and leaves it in the last.
+    The edge of the tip comes down on it in the first step, and leaves it in the last. Returns, without heat,
+    its forces (n,), N, its wear after the passage, m, the energy that it takes up, J, and what this leaves of
+    the work of the tip on it, over the work exchanged.
     """
     forces, energy, work, exchanged, before = np.zeros(depth.size), 0.0, 0.0, 0.0, 0.0
     for i, level in enumerate(depth):
@@ -114,27 +114,4 @@ def _one_passage(law: ModuleType, element: Any, depth: np.ndarray, wear: float) 
         work, exchanged = work + contribution, exchanged + abs(contribution)
         forces[i] = before = force
     missing = abs(work - stored - energy)
-    return _Passage(forces, wear, energy, missing / exchanged if exchanged else 0.0)
-
-
-class _Heat:
-    """The heat of one element, a row of its own in the time loop's layer."""
-
-    def __init__(self, rig: Rig, law: ModuleType, area: float):
-        self._layer = law.Layer(law, rig.coating, np.full(LANES, area), rig.track / rig.speed)
-        self._state = at_rest(1, 1, law.Layer.numbers)
-
-    def add(self, flow: float, friction: float) -> None:
-        """Warm the element by what flow and friction make in a pass (J), and let it be until the next."""
-        self._state.taken[0, 0], self._state.taken[0, LANES] = flow, friction
-        self._layer.rest(self._state, 0, 1)
-
-    @property
-    def rise(self) -> float:
-        """Mean rise of temperature over the heated depth, K."""
-        return float(self._layer.rise(self._state)[0, 0])
-
-    @property
-    def strength(self) -> float:
-        """Force of the element over that without heat."""
-        return float(self._state.strength[0, 0])
+    return forces, wear, energy, missing / exchanged if exchanged else 0.0

@@ -160,10 +160,10 @@ def read_rigs(path: str | Path) -> list[Rig]:
     """Read rigs; raises `ConfigError`, with file, line, key, value and what would be right."""
     rigs = []
     for name, located in plans.read_plan(path, RigPlan).content["rigs"].content.items():
-        rig = RigSettings.model_validate(located.plain())
+        rig, within = RigSettings.model_validate(located.plain()), f"rigs.{name}.law"
         try:
-            values = rig.plain() | {"law": element_law(rig.law), "assumed": tuple(rig.assumed)}
-            rigs.append(Rig(name, **values))
+            law, within = element_law(rig.law), f"rigs.{name}"
+            rigs.append(Rig(name, **rig.plain() | {"law": law, "assumed": tuple(rig.assumed)}))
         except ValueError as error:
-            raise ConfigError.at(located.location, f"rigs.{name}.{error}") from error
+            raise ConfigError.at(located.location, f"{within}.{error}") from error
     return rigs
