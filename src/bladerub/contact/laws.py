@@ -40,7 +40,7 @@ def element_law(law: Section | None) -> ElementLaw:
     Raises `ValueError`, which begins with the key, if there is none such or a parameter is wrong.
     """
     is_paper = law is None or law.plain() in ({}, {"name": PLASTIC.name})
-    return PLASTIC if is_paper else _plugged_in("law").element_law(law)
+    return PLASTIC if is_paper else _plugged_in("law").law_of(law.plain())
 
 
 def source_of(law: ElementLaw) -> str:

@@ -9,7 +9,6 @@ by it without running the law. The time loop is compiled with the law in it
 import ast
 import dis
 import hashlib
-import math
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -22,7 +21,6 @@ from bladerub.contact.laws import NAMES
 from bladerub.contact.spec import PLASTIC, ElementLaw
 from bladerub.io import sources
 from bladerub.io.folders import PACKAGE, study_folder
-from bladerub.settings.fields import Section
 
 CONTRACT = (
     *("Element", "element", "return_mapping", "tangent", "elastic_force"),
@@ -43,6 +41,7 @@ class Parameter(NamedTuple):
 _PARAMETERS = TypeAdapter(dict[str, Parameter])
 
 
+@cache
 def source_of(law: ElementLaw) -> str:
     """Return the text of the module of a law; it is empty for that of the paper, which the loop has.
 
@@ -50,7 +49,9 @@ def source_of(law: ElementLaw) -> str:
     """
     if law.source or law.name == PLASTIC.name:
         return law.source
-    return _source_in_package(law.name)
+    if law.name not in (offered := plugins.offered("LAWS")):
+        raise ValueError(f"name = {law.name}: must be one of {', '.join(NAMES)}")
+    return PACKAGE.joinpath(*offered[law.name].split(".")).with_suffix(".py").read_text(encoding="utf-8")
 
 
 def law_digest(law: ElementLaw) -> dict[str, str]:
@@ -61,11 +62,6 @@ def law_digest(law: ElementLaw) -> dict[str, str]:
     plugs_in = {} if law.source else {"law": hashlib.sha256(source.encode()).hexdigest()}
     imported = [name for name in sources.imports_in(source) if name.startswith("extras.")]
     return plugs_in | ({"law_imports": sources.digest_behind(*imported)} if imported else {})
-
-
-def element_law(settings: Section) -> ElementLaw:
-    """Describe the law of ``contact.law`` of a config; raises as `law_of`."""
-    return law_of(settings.plain())
 
 
 def law_of(entry: Mapping[str, Any]) -> ElementLaw:
@@ -156,16 +152,8 @@ def described_law(name: str, values: Mapping[str, Any], source: str = "") -> Ele
         if parameter not in values:
             raise ValueError(f"{parameter}: missing, {requirement}")
         value = values[parameter]
-        is_number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-        if not is_number or not rule.minimum <= value <= rule.maximum:
+        is_number = isinstance(value, int | float) and not isinstance(value, bool)
+        if not (is_number and rule.minimum <= value <= rule.maximum):
             raise ValueError(f"{parameter} = {value}: {requirement}")
         settings.append((parameter, float(value)))
     return ElementLaw(name, tuple(settings), source)
-
-
-@cache
-def _source_in_package(name: str) -> str:
-    place = plugins.offered("LAWS").get(name)
-    if place is None:
-        raise ValueError(f"name = {name}: must be one of {', '.join(NAMES)}")
-    return PACKAGE.joinpath(*place.split(".")).with_suffix(".py").read_text(encoding="utf-8")

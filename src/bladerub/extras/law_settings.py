@@ -4,12 +4,11 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import Annotated, Any
 
-from pydantic import ConfigDict, Field, field_validator, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import ConfigDict, Field, model_validator
 
 from bladerub.config.keys import Key
 from bladerub.config.quantities import unknown
-from bladerub.extras.law_reading import file_of, parameters_in
+from bladerub.extras.law_reading import parameters_in
 from bladerub.settings import units
 from bladerub.settings.fields import Form, Omitted, Section, Unit, disagreement
 
@@ -37,16 +36,6 @@ class Law(Section):
         if self.name is not None and self.file is not None:
             raise disagreement("file", "must be without the name of a law")
         return self
-
-    @field_validator("file")
-    @classmethod
-    def _is_there(cls, file: str | None) -> str | None:
-        try:
-            if file is not None:
-                file_of(file)
-        except ValueError as error:
-            raise PydanticCustomError("kind", str(error).replace("{", "{{")) from error
-        return file
 
     @classmethod
     def further_keys(cls, values: Mapping[str, Any]) -> dict[str, Key]:
