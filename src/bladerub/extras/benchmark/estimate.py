@@ -62,16 +62,12 @@ def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
         costs = [cost for _, cost in each_done(cost_of_run, runs[step // 2 :: step], n_threads)]
     seconds_per_run, longer, is_near_a_peak = np.transpose(costs)
     totals = seconds_per_run + longer
-    peak_totals = totals[is_near_a_peak == 1]
+    peak_totals = totals[is_near_a_peak == 1] if is_near_a_peak.any() else totals
     further = plugins.loaded("COSTS").values()
     members = sum(cost(config, case) for cost in further for case in coating_cases(config))
     modules = [*_JOB_OF_RUNS, *(place.partition(":")[0] for place in plugins.offered("COSTS").values())]
     starts = sum(map(_start, modules)) * len(coating_cases(config))
-    seconds = (
-        len(runs) * totals.mean()
-        + members * (peak_totals.mean() if peak_totals.size else totals.mean())
-        + starts
-    )
+    seconds = len(runs) * totals.mean() + members * peak_totals.mean() + starts
     return {
         "seconds_per_run": float(seconds_per_run.mean()),
         "runs": len(runs),

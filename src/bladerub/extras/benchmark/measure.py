@@ -62,8 +62,8 @@ def benchmark(
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
     progress("compiling the plain loop")
     specs = {"contact": touching, "free": free}
-    law = touching.coating.element_law
-    in_python, compiled = plain.integrator(law), plain.compiled(law)
+    in_python = plain.integrator(touching.coating.element_law)
+    compiled = njit(in_python)
     _plain(compiled, blade, touching, 1)
     multiply_and_add(1)
 

@@ -8,7 +8,6 @@ modes, nodes and elements. It runs in Python, and compiled by numba.
 from collections.abc import Callable
 from functools import cache, partial
 
-import numba
 import numpy as np
 
 from bladerub.contact.kernel.loop import Simulation
@@ -85,9 +84,3 @@ def integrator(element_law: ElementLaw) -> Callable:
             displacement[step] = u[0]
 
     return integrate
-
-
-@cache
-def compiled(element_law: ElementLaw) -> Callable:
-    """Return the same, compiled by numba."""
-    return numba.njit(integrator(element_law))

@@ -1,3 +1,6 @@
+from functools import cache
+
+import numba
 import numpy as np
 import pytest
 from contact_in_numpy import element_means
@@ -121,11 +124,16 @@ def test_the_study_on_an_emulated_gpu(blade, tmp_path):
     assert tables.read(tmp_path / "gpu.csv", gpu.COLUMNS).gpu.item() == "emulated"
 
 
+@cache
+def compiled(law):
+    return numba.njit(plain.integrator(law))
+
+
 VISCOPLASTIC = described_law("viscoplastic", {"viscosity": 1e4})
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("loop", [plain.integrator, pytest.param(plain.compiled, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("loop", [plain.integrator, pytest.param(compiled, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize(
     ("E", "K", "theta", "law"),
     [
