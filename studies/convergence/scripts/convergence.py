@@ -8,9 +8,8 @@ from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.plots.steps import steps as draw_steps
-from bladerub.extras.study_runs import study_runs
+from bladerub.extras.study_runs import important_runs, study_runs
 from bladerub.extras.verification import accuracy, refinement, rigid_casing, steps
-from bladerub.extras.verification.verify import important_runs
 from bladerub.io import tables
 from bladerub.settings.study import typed
 from bladerub.study.peaks import COLUMNS

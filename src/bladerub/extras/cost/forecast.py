@@ -32,18 +32,14 @@ def announce(
         line = forecast(config, jobs, cores, plan_of, simulating)
     except OSError as error:
         line = message_for(error)
-    print(f"bladerub: {coatings(config)}\nbladerub: {line}", file=sys.stderr)
+    names = [case.name for case in coating_cases(config)]  # so that a list such as [0,5] shows as two values
+    coatings = f"{len(names)} coatings: {textwrap.shorten(', '.join(names), 160, placeholder=' …')}"
+    print(f"bladerub: {coatings}\nbladerub: {line}", file=sys.stderr)
 
 
 def announce_at_exit(config: Config, workflow: Any) -> None:
     """Print the `forecast` after the jobs that a dry run lists."""
     atexit.register(announce, config, workflow)
-
-
-def coatings(config: Config) -> str:
-    """Name the coatings of the study in a line, so that a list such as ``[0,5]`` shows as two values."""
-    names = [case.name for case in coating_cases(config)]
-    return f"{len(names)} coatings: {textwrap.shorten(', '.join(names), 160, placeholder=' …')}"
 
 
 def forecast(

@@ -23,7 +23,7 @@ import pandas as pd
 import scipy
 
 from bladerub.extras.ensembles.ensemble import Ensemble
-from bladerub.extras.important_runs import judged
+from bladerub.extras.study_runs import judged
 from bladerub.settings.study import Config
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence

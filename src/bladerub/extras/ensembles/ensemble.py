@@ -7,7 +7,7 @@
    ± ``ensemble.displacement``. The draws of a run depend on ``ensemble.seed``, the coating and the speed, and
    on nothing else: more members leave those that are there as they are.
 3. The runs with an ensemble are those that tables and claims rest on
-   (`bladerub.extras.important_runs.chosen`).
+   (`bladerub.extras.study_runs.chosen`).
 4. Each of them is repeated from its own start with a quarter of the tolerance, which is half the step
    (`bladerub.contact.steps`): what changes is three quarters of the error that the step of the run makes.
 5. Members are stored, found again and followed further when they grow as the runs of the study are
@@ -25,7 +25,7 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.ensembles.settings import Ensemble as Settings
-from bladerub.extras.important_runs import chosen, judged, on_lobes, with_history
+from bladerub.extras.study_runs import chosen, judged, on_lobes, with_history
 from bladerub.io import hdf5
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import BadInput, DamagedFile

@@ -12,7 +12,7 @@ import pandas as pd
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
-from bladerub.extras.important_runs import nearest_speed
+from bladerub.extras.study_runs import nearest_speed
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.important_runs import LOBES
+from bladerub.extras.study_runs import LOBES
 from bladerub.study.findings.claim import NotMeasurable, claim_of
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import SAME_SPEED, CoatingCase, between

@@ -54,9 +54,9 @@ def verify(options: argparse.Namespace) -> None:
     if options.rows and options.peaks:
         raise BadInput(f"--rows = {options.rows}: not with --peaks, which are of single blades")
 
-    from bladerub.extras.study_runs import study_runs
+    from bladerub.extras.study_runs import important_runs, study_runs
     from bladerub.extras.verification.accuracy import summary
-    from bladerub.extras.verification.verify import draw, important_runs, verify_runs
+    from bladerub.extras.verification.verify import draw, verify_runs
 
     if options.rows:
         runs = _rows(config, options.rows)

@@ -17,7 +17,6 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,13 +29,11 @@ from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import STABLE_PART, with_steps
 from bladerub.contact.strips import element_passage
-from bladerub.extras.important_runs import chosen
 from bladerub.extras.study_runs import StudyRun
 from bladerub.extras.verification.differences import Differences, differences, largest
 from bladerub.settings.study import Config
-from bladerub.study.grid import coating_cases, element_law, run_spec
-from bladerub.study.maps import read_map
-from bladerub.study.solver import each_done, row_of
+from bladerub.study.grid import element_law, run_spec
+from bladerub.study.solver import each_done
 
 TOLERANCE = 0.01
 """Differences beyond this are listed by run."""
@@ -89,19 +86,6 @@ def explain(error: Differences, spread: Differences) -> bool:
     """
     pairs = zip(error, spread, strict=True)
     return all(change >= difference / 2 for difference, change in pairs if difference > TOLERANCE)
-
-
-def important_runs(config: Config, maps: Path) -> list[StudyRun]:
-    """List the runs that tables and claims rest on (`chosen`), by the folder of maps.
-
-    Raises as `bladerub.study.maps.read_map`.
-    """
-    row = row_of(config)
-    return [
-        StudyRun(case, float(f_omega), row)
-        for case in coating_cases(config)
-        for f_omega in chosen(config, read_map(maps / f"{case.name}.h5"))
-    ]
 
 
 def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:

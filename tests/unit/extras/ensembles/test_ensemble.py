@@ -12,7 +12,7 @@ from bladerub.extras.ensembles.ensemble import Ensemble, expected_cost
 from bladerub.extras.ensembles.figure import peak_bands
 from bladerub.extras.ensembles.settings import Ensemble as Settings
 from bladerub.extras.further_columns import with_further
-from bladerub.extras.important_runs import chosen, judged, nearest_speed, on_lobes
+from bladerub.extras.study_runs import chosen, judged, nearest_speed, on_lobes
 from bladerub.io import tables
 from bladerub.io.errors import BadInput
 from bladerub.study import divergence, findings, peak_table

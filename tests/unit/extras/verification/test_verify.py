@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 from study_fixtures import changed
 
+from bladerub.extras import study_runs
 from bladerub.extras.verification import accuracy, verify
 from bladerub.extras.verification.accuracy import summary
 from bladerub.extras.verification.compare import compare as compare_tables
@@ -55,7 +56,7 @@ def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config,
     config = changed(config, coatings=[{"casing": "2nd", "E": [1.1], "K": [0.5], "theta": [0]}], speeds=grid)
     coating = make_map(case, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, speeds(config))
     write_map(tmp_path / f"{case.name}.h5", coating, {})
-    runs = verify.important_runs(config, tmp_path)
+    runs = study_runs.important_runs(config, tmp_path)
     assert {run.case for run in runs} == {case}
     np.testing.assert_allclose([run.f_omega for run in runs], [0.15, 0.2, 0.25, 0.3, 0.35])
 
