@@ -1,19 +1,19 @@
 """What of the plan is on disk: runs done, missing, stale and corrupt, by coating."""
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 from bladerub.blade.files import is_built, missing_file
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.result import UNBALANCED
-from bladerub.io.errors import is_refused, message_for
+from bladerub.io.errors import DamagedFile, is_refused, message_for
 from bladerub.settings.analysis import Divergence
 from bladerub.settings.study import Config
 from bladerub.study.cache import blade_digest
 from bladerub.study.growth import needs_confirmation
-from bladerub.study.manifest import damaged_files, read_manifest
+from bladerub.study.manifest import read_manifest
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
 from bladerub.study.store import read_run
 
@@ -72,32 +72,33 @@ class _RunSummary(NamedTuple):
 
 
 def take(
-    config: Config, plan: CoatingPlan, folder: Path, digest: str | None, thorough: bool = False
+    config: Config, plan: CoatingPlan, folder: Path, digest: str | None, known: Collection[Path] = ()
 ) -> Inventory:
     """Compare the runs of one coating in `folder` with its `plan`.
 
     Without a blade, whose `digest` is of `current_blade`, every run that is there is stale. A file of the
-    size in the manifest is taken to be what that says; any other is opened, which shows a truncated one. If
-    `thorough`, every number is read, and every byte compared with the checksum in the manifest if the job is
-    done.
+    size in the manifest is taken to be what that says; any other is opened, which shows a truncated one.
+    Those `known` to be damaged are corrupt (``FAULTS`` of `bladerub.plugins` reads all to their ends).
     """
     manifest = folder / "manifest.tsv"
-    damaged = damaged_files(manifest, thorough=thorough)
     paths = (Path(place, name) for place, _, names in os.walk(folder) for name in names)
     sizes = {path: path.stat().st_size for path in paths if path.is_file()}
-    unreadable = []
-    manifest_runs = {} if thorough or damaged else _listed(manifest, sizes, growth_key(config))
+    manifest_runs, damaged, unreadable = {}, [], []
+    try:
+        manifest_runs = _listed(manifest, sizes, growth_key(config))
+    except DamagedFile:
+        damaged.append(manifest)
 
     def look(run: PlannedRun) -> tuple[str, _RunSummary | None]:
         path = folder / run.file
+        if path not in sizes:
+            return "missing", None
+        if path in known:
+            return "corrupt", None
         summary = manifest_runs.get(path)
         if summary is None:
-            if path not in sizes:
-                return "missing", None
-            if path in damaged:
-                return "corrupt", None
             try:
-                summary = _read(path, config.analysis.divergence, thorough)
+                summary = _read(path, config.analysis.divergence)
             except Exception as error:  # h5py raises anything on a damaged file
                 if is_refused(error):
                     unreadable.append(message_for(error))
@@ -136,9 +137,8 @@ def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[
     return summaries
 
 
-def _read(path: Path, settings: Divergence, thorough: bool) -> _RunSummary:
-    """Read the run at `path`, wholly if `thorough`."""
-    stored = read_run(path, None if thorough else {"revolution_amplitude"})
+def _read(path: Path, settings: Divergence) -> _RunSummary:
+    stored = read_run(path, {"revolution_amplitude"})
     names = ("run_key", "status", "n_unconverged_steps", "energy_residual")
     key, status, unconverged_steps, residual = (stored.attributes[name] for name in names)
     grows = needs_confirmation(stored.data["revolution_amplitude"], status, settings)

@@ -137,13 +137,3 @@ def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[An
 def listed_files(path: str | Path, kind: type[Row] = ManifestRow) -> list[ListedFile]:
     """List all files of the rows of the manifest at `path`; raises `OSError` as `read_manifest`."""
     return [file for row in read_manifest(path, kind) for file in row.files(Path(path).parent)]
-
-
-def damaged_files(path: str | Path, thorough: bool = True) -> list[Path]:
-    """List the damaged files of a manifest, looked for only if `thorough`, or itself if it is damaged."""
-    try:
-        return [file.path for file in listed_files(path) if thorough and file.is_damaged()]
-    except FileNotFoundError:
-        return []
-    except DamagedFile:
-        return [Path(path)]

@@ -1,7 +1,7 @@
 """The plan of rows: groups of combinations, each with draws of its blades."""
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -158,13 +158,15 @@ def described(combination: Combination) -> dict[str, Any]:
     return {name: case[name] for name in ("casing", "E", "K", "theta")} | values
 
 
-def inventories(config: Config, results: Path, digest: str | None, thorough: bool) -> list[Inventory]:
-    """Count the runs of the rows of blades, if any were begun."""
+def inventories(
+    config: Config, results: Path, digest: str | None, known: Collection[Path]
+) -> list[Inventory]:
+    """Count the runs of the rows of blades, if any were begun, as `take` does."""
     path = study_folder() / PLAN
     if not ((results / RUNS).exists() and path.exists()):
         return []
     plan = read_plan(path, config)
     return [
-        take(config, plan.runs(config, name), results / RUNS / name, digest, thorough)
+        take(config, plan.runs(config, name), results / RUNS / name, digest, known)
         for name in plan.combinations
     ]

@@ -51,18 +51,19 @@ def status(options: argparse.Namespace) -> int:
 
     results = inputs.study_folder() / config.results
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
+    faults = [examine(results) for examine in plugins.loaded("FAULTS").values()] if options.thorough else []
+    known = {path for part in faults for path in part.damaged}
     cases, taken = coating_cases(config), {}
     for case in bar(len(cases), "coating", False if options.json else None, iterable=cases):
         plan, folder = coating_plan(config, case), results / "runs" / case.name
-        taken[case.name] = inventory.take(config, plan, folder, digest, options.thorough)
+        taken[case.name] = inventory.take(config, plan, folder, digest, known)
     of_rows = [
         part
         for inventories in plugins.loaded("INVENTORIES").values()
-        for part in inventories(config, results, digest, options.thorough)
+        for part in inventories(config, results, digest, known)
     ]
     counts = {name: part.counts for name, part in taken.items()}
     rows = inventory.total(part.counts for part in of_rows) if of_rows else None
-    faults = [examine(results) for examine in plugins.loaded("FAULTS").values()] if options.thorough else []
     parts = [*taken.values(), *of_rows, *faults]
     lost_files = [path for part in faults for path in part.lost_files]
     damaged = list(dict.fromkeys(path for part in parts for path in part.damaged))
