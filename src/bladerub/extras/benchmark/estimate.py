@@ -34,12 +34,11 @@ from bladerub.extras.benchmark.record import cores as cores_here
 from bladerub.extras.study_runs import StudyRun, study_runs
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
-from bladerub.study.grid import CoatingCase, coating_cases, run_spec
-from bladerub.study.growth import needs_confirmation
-from bladerub.study.job import compute
+from bladerub.study.grid import coating_cases, run_spec
+from bladerub.study.job import compute, compute_missing
 from bladerub.study.maps import first_frequency
 from bladerub.study.orders import peak_orders
-from bladerub.study.plan import PlannedRun, longer_run, planned_run
+from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import each_done
 from bladerub.study.store import write_run
 
@@ -54,6 +53,7 @@ def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
     Returns CPU seconds of one run (``seconds_per_run``, of the length in the config), the number of ``runs``
     and ``members``, the ``cores``, and the ``study_minutes`` of wall time on them.
     """
+    config = config.replaced("solver.device", "cpu")
     runs = study_runs(config)
     step = max(1, len(runs) // DRAWN)
     n_threads = min(cores, cores_here())  # at once, so that the cores share caches as in the study
@@ -78,27 +78,16 @@ def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
 
 
 def _cost(blade: ReducedBlade, config: Config, folder: Path, run: StudyRun) -> tuple[float, float, bool]:
-    """CPU time of a run and of the repetition that follows its growth, if any, s; whether a peak is near."""
-    file, spec = f"{run.name.replace('/', '_')}.h5", run_spec(config, run.case, run.f_omega)
-    planned = planned_run(config, spec, file, False, run.row)
+    """CPU time of a run and of what follows its growth, if it grows, s; and whether a peak is near."""
+    spec = run_spec(config, run.case, run.f_omega)
+    plan = CoatingPlan(run.case, (planned_run(config, spec, "run.h5", False, run.row),))
     start = time.thread_time()  # other processes and threads do not count
-    grows = _make(blade, config, run.case, planned, folder)
-    run_end = time.thread_time()
-    followed = 0.0
-    if grows:  # a study goes on with the run
-        longer = longer_run(config, planned)
-        _make(blade, config, run.case, longer, folder / "longer")
-        share = 1 - spec.revolutions / longer.spec.revolutions
-        followed = share * (time.thread_time() - run_end)
-    return run_end - start, followed, _is_near_a_peak(blade, config, run)
-
-
-def _make(blade: ReducedBlade, config: Config, case: CoatingCase, planned: PlannedRun, folder: Path) -> bool:
-    """Compute and store a run; return whether it grows."""
-    stored = compute(case, planned, blade, "", config.analysis)
-    write_run(folder / planned.file, stored, provenance(config.plain()))
-    amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
-    return needs_confirmation(amplitude, status, config.analysis.divergence)
+    (row,) = compute_missing(config, plan, blade, folder / run.name, "")
+    seconds, revolutions = time.thread_time() - start, spec.revolutions
+    if row.confirmation_key:  # it grew, and was followed
+        revolutions = config.analysis.divergence.confirmation_revolutions
+    per_run = seconds * spec.revolutions / revolutions
+    return per_run, seconds - per_run, _is_near_a_peak(blade, config, run)
 
 
 def _is_near_a_peak(blade: ReducedBlade, config: Config, run: StudyRun) -> bool:
