@@ -48,10 +48,6 @@ class LawReport:
         self.histories = 0
         self.problems: dict[str, str] = {}
 
-    def add(self, what: str, place: str) -> None:
-        """Note a problem and where it was found."""
-        self.problems.setdefault(what, place)
-
     def unless(self, condition: np.ndarray, what: str, **values: np.ndarray) -> None:
         """Note the first history in which something is not right, with what it is there in SI units."""
         wrong = ~np.broadcast_to(condition, (HISTORIES,))
@@ -60,7 +56,7 @@ class LawReport:
             readings = (
                 f"{name} {np.broadcast_to(value, wrong.shape)[history]:.4g}" for name, value in values.items()
             )
-            self.add(what, ", ".join(name.replace("_", " ") for name in readings))
+            self.problems.setdefault(what, ", ".join(name.replace("_", " ") for name in readings))
 
 
 def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> LawReport:
@@ -86,7 +82,7 @@ def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> La
     except Exception as error:  # whatever the law, or the compiler of it, may raise
         first_line = str(error).strip().partition("\n")[0]
         kind = "" if isinstance(error, BadInput) else f"{type(error).__name__}: "
-        log.add("it cannot be run", f"{kind}{first_line}")
+        log.problems.setdefault("it cannot be run", f"{kind}{first_line}")
     return log
 
 
@@ -107,7 +103,8 @@ def _follow(
     twice = element_parameters(coating, _AREA * np.array([1.0, 2.0]), time_step)
     single = element_parameters(coating, np.array([2 * _AREA]), time_step)
     if not np.allclose(twice, np.column_stack([element, single]), rtol=1e-9, atol=0.0):
-        log.add("element gives parameters that depend on the areas of other elements", "areas 1 and 2 mm²")
+        what = "element gives parameters that depend on the areas of other elements"
+        log.problems.setdefault(what, "areas 1 and 2 mm²")
     paths = _paths(coating.thickness, rng)
     wear, force, stored, dissipated, work, exchanged, unsure, increment = np.zeros((8, HISTORIES))
     for step, (penetration_before, penetration) in enumerate(itertools.pairwise(paths)):
@@ -155,7 +152,7 @@ def _heat(law: ModuleType, coating: Coating, log: LawReport) -> None:
     if not falls.all():  # also what is no number
         index = int(falls.argmin())
         what = "strength is not 1 without heat, rises with the temperature or is not above 0"
-        log.add(what, f"temperature rise {rise[index]:.4g}, strength {strength[index]:.4g}")
+        log.problems.setdefault(what, f"temperature rise {rise[index]:.4g}, strength {strength[index]:.4g}")
 
 
 def _look(law, element, depth, wear, force, increment, rng, log: LawReport) -> None:
