@@ -56,8 +56,6 @@ def source_of(law: ElementLaw) -> str:
 
 def law_digest(law: ElementLaw) -> dict[str, str]:
     """Digest what loop and spec lack of a law: its module if it plugs in, and what it imports of extras."""
-    if not (law.source or law.name in plugins.offered("LAWS")):
-        return {}
     source = source_of(law)
     plugs_in = {} if law.source else {"law": hashlib.sha256(source.encode()).hexdigest()}
     imported = [name for name in sources.imports_in(source) if name.startswith("extras.")]

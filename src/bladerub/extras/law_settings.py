@@ -1,15 +1,14 @@
 """What a config says of a law of the coating."""
 
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field, model_validator
 
+from bladerub.config.files import Located
 from bladerub.config.keys import Key
-from bladerub.config.quantities import unknown
+from bladerub.config.quantities import converted
 from bladerub.extras.law_reading import parameters_in
-from bladerub.settings import units
 from bladerub.settings.fields import Form, Omitted, Section, Unit, disagreement
 
 
@@ -53,8 +52,4 @@ def law_entry(law: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
     Quantities become plain numbers. What cannot be converted stays as it is, for the law to refuse.
     """
     entry = {"file" if law.endswith(".py") else "name": law, **parameters}
-    for name, key in Law.further_keys(entry).items():
-        if quantity := units.read(entry.get(name)):
-            with suppress(ValueError):
-                entry[name] = key.convert(quantity, unknown)
-    return entry
+    return converted(Located.of(entry), Law)[0].plain()

@@ -96,18 +96,15 @@ def _advance(simulation, ends, displacement, rows, forces):
 
 
 def _advance_by_parts(simulation, ends, displacement, rows, forces):
-    n_steps = n_flights = n_contact = 0
-    low, high = np.inf, -np.inf
-    for part, (first, last) in enumerate(pairwise(ends)):
-        progress = simulation.advance(displacement[first:last], int(first))
-        n_steps, n_flights = n_steps + progress.n_steps, n_flights + progress.n_flights
-        n_contact += progress.n_contact_steps
-        low, high = min(low, progress.lowest), max(high, progress.highest)
-        if progress.n_steps < (last - first) * simulation.steps_per_element:
-            return part, Progress(n_steps, n_flights, n_contact, low, high)
-        state, n = simulation.state, rows.shape[1] - forces.size
-        rows[part] = np.concatenate([state.q[0, :n], state.force[0, forces]])
-    return len(rows), Progress(n_steps, n_flights, n_contact, low, high)
+    state, n, parts, n_instants = simulation.state, rows.shape[1] - forces.size, [], 0
+    for first, last in pairwise(ends):
+        parts.append(simulation.advance(displacement[first:last], int(first)))
+        if parts[-1].n_steps < (last - first) * simulation.steps_per_element:
+            break
+        rows[n_instants] = np.concatenate([state.q[0, :n], state.force[0, forces]])
+        n_instants += 1
+    *counts, lowest, highest = zip(*parts, strict=True)
+    return n_instants, Progress(*map(sum, counts), min(lowest), max(highest))
 
 
 @njit_on_disk(solver_digest(), nogil=True)

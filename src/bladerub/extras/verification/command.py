@@ -75,7 +75,8 @@ def verify(options: argparse.Namespace) -> None:
         )
     with refused(ValueError):
         runs_done = verify_runs(blade.reduced, config, runs, options.jobs)
-        verified = list(bar(len(runs), "run", False if options.json else None, iterable=runs_done))
+        done = bar(len(runs), "run", False if options.json else None, iterable=runs_done)
+        verified = sorted(done, key=lambda one: one.run.name)
     inputs.warn_of_residual(options, max(run.energy_residual for run in verified))
     inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | summary(verified), _in_words)
 
