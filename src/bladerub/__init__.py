@@ -1,8 +1,8 @@
 """Contact of a compressor blade with the abradable coating of its casing.
 
-The Python interface: `load_study` or `default_study`, `build_blade`, `simulate` and `simulate_speeds`, and
-`read_run`, `read_map` and `read_blade` for what a study has computed. Folders of `bladerub.extras` add
-more names (`bladerub.plugins`).
+The Python interface: `load_study` or `default_study`, `build_blade` and `simulate`, and `read_run` and
+`read_blade` for what a study has computed. Folders of `bladerub.extras` add more names, such as
+`simulate_speeds` and `read_map` (`bladerub.plugins`).
 
 Data flows one way: ``blade → contact → study → plots``.
 """
@@ -15,7 +15,6 @@ from bladerub import plugins
 if TYPE_CHECKING:
     from bladerub.api.arguments import InputError
     from bladerub.api.blade import Blade, build_blade, read_blade
-    from bladerub.api.map import Map, read_map, simulate_speeds
     from bladerub.api.planned import StudyCoating, StudyRun
     from bladerub.api.run import Run, read_run
     from bladerub.api.simulate import simulate
@@ -27,7 +26,6 @@ __version__ = "0.1.0"
 _MODULES = {
     "api.arguments": ("InputError",),
     "api.blade": ("Blade", "build_blade", "read_blade"),
-    "api.map": ("Map", "read_map", "simulate_speeds"),
     "api.planned": ("StudyCoating", "StudyRun"),
     "api.run": ("Run", "read_run"),
     "api.simulate": ("simulate",),
@@ -40,7 +38,6 @@ __all__ = [
     "Blade",
     "ConfigError",
     "InputError",
-    "Map",
     "Run",
     "Study",
     "StudyCoating",
@@ -50,10 +47,8 @@ __all__ = [
     "default_study",
     "load_study",
     "read_blade",
-    "read_map",
     "read_run",
     "simulate",
-    "simulate_speeds",
 ]
 
 

@@ -12,8 +12,8 @@ import pytest
 from study_fixtures import *  # noqa: F403 (fixtures)
 from study_fixtures import changed
 
-from bladerub.api.map import Map
 from bladerub.extras.explorer.page import build
+from bladerub.extras.maps.interface import Map
 from bladerub.extras.variations import margins
 from bladerub.extras.variations.verdicts import side_by_side, verdicts
 from bladerub.io import tables

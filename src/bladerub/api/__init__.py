@@ -1,1 +1,1 @@
-"""The Python interface: studies, blades, runs and maps as objects. `bladerub` exports its names."""
+"""The Python interface: studies, blades and runs as objects. `bladerub` exports its names."""

@@ -1,10 +1,10 @@
-"""One run simulated: its solver, and the longer run of one that grows."""
+"""Runs simulated, with the longer run of one that grows: a single one, or many of a coating."""
 
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from bladerub.api.arguments import over
+from bladerub.api.arguments import InputError, over
 from bladerub.api.blade import Blade
 from bladerub.api.display import bar, step
 from bladerub.api.planned import StudyRun
@@ -12,8 +12,8 @@ from bladerub.api.run import Run, stress_measure
 from bladerub.contact.setup import compile_kernel
 from bladerub.study.grid import speed_name
 from bladerub.study.growth import needs_confirmation
-from bladerub.study.job import compute
-from bladerub.study.plan import PlannedRun, longer_run, planned_run
+from bladerub.study.job import compute, compute_all
+from bladerub.study.plan import CoatingPlan, PlannedRun, longer_run, planned_run
 from bladerub.study.solver import Solve, row_of, solver_of
 from bladerub.study.store import StoredRun
 
@@ -106,3 +106,23 @@ def simulate(
     if run_stress:
         stored = replace(stored, attributes=stored.attributes | run_stress.attributes())
     return Run(stored, longer, run_stress, run.config)
+
+
+def solve_all(
+    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
+) -> list[Run]:
+    """Simulate `runs` of a coating, `jobs` at once, without histories; other arguments as of `simulate`."""
+    if not isinstance(jobs, int) or jobs < 1:
+        raise InputError("jobs", jobs, "must be at least 1")
+    with step("compiling the time loop", progress):
+        compile_kernel(runs[0].spec.turns, blade.reduced.n_interface, runs[0].spec.coating.element_law)
+    runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade
+    config, row = runs[0].config, row_of(runs[0].config)
+    planned = [planned_run(config, run.spec, f"{n}.h5", False, row, follow) for n, run in enumerate(runs)]
+    plan = CoatingPlan(runs[0].case, tuple(planned))
+    with bar(len(runs), "run", progress) as line:
+        stored, longer = compute_all(
+            config, plan, blade.reduced, blade.digest, threads=jobs, advance=line.update
+        )
+    pairs = zip(stored, longer, strict=True)
+    return [Run(run, Run(more) if more else None, config=config) for run, more in pairs]

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.api.map import solve_all
+from bladerub.api.simulate import solve_all
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
 from bladerub.extras.ensembles import interface

@@ -10,9 +10,9 @@ import pandas as pd
 from bladerub.api.arguments import InputError, over
 from bladerub.api.blade import Blade
 from bladerub.api.display import Shown
-from bladerub.api.map import solve_all
 from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run, run_of, runs_of
+from bladerub.api.simulate import solve_all
 from bladerub.extras.ensembles.bands import band
 from bladerub.extras.ensembles.ensemble import starts
 from bladerub.io.equality import Comparable

@@ -8,7 +8,7 @@ import pytest
 from stand_in import COARSE
 
 import bladerub as br
-from bladerub.api import map as maps
+from bladerub.api.simulate import solve_all
 from bladerub.cli import main
 from bladerub.extras.gpu import emulation, server, solver
 from bladerub.extras.gpu.batch import Output, Work
@@ -58,7 +58,7 @@ def test_speeds_are_computed_together(on_gpu, monkeypatch):
     monkeypatch.setattr(server, "find", lambda: device)
     blade, coating = br.build_blade(on_gpu), on_gpu.coating("2nd", E=2, K=0.5)
     runs_ = [coating.at(f, revolutions=3) for f in (0.19, 0.2)]
-    found = maps.solve_all(blade, runs_, jobs=2, follow=False, progress=False)
+    found = solve_all(blade, runs_, jobs=2, follow=False, progress=False)
     assert given == [2]
     assert [each.f_omega for each in found] == [0.19, 0.2]
     alone = br.simulate(blade, runs_[1], follow=False)

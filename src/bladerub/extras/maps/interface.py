@@ -12,11 +12,11 @@ import pandas as pd
 from bladerub import plots
 from bladerub.api.arguments import InputError, over
 from bladerub.api.blade import Blade
-from bladerub.api.display import Shown, bar, step
-from bladerub.api.planned import Quantity, StudyCoating, StudyRun
-from bladerub.api.run import Run, to_dataset
+from bladerub.api.display import Shown
+from bladerub.api.planned import Quantity, StudyCoating
+from bladerub.api.run import to_dataset
+from bladerub.api.simulate import solve_all
 from bladerub.api.study import settings_of
-from bladerub.contact.setup import compile_kernel
 from bladerub.io.hdf5 import read_attributes
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -24,10 +24,7 @@ from bladerub.settings.units import speeds_in_words
 from bladerub.study import maps
 from bladerub.study.divergence import in_a_word, verdicts
 from bladerub.study.grid import CoatingCase, modulus_unit
-from bladerub.study.job import compute_all
 from bladerub.study.maps import CoatingMap
-from bladerub.study.plan import CoatingPlan, planned_run
-from bladerub.study.solver import row_of
 from bladerub.study.summary import spectral_peak
 
 if TYPE_CHECKING:
@@ -245,23 +242,3 @@ def simulate_speeds(
     f_omega = [run.f_omega for run in runs]
     collected = maps.collect(coating.config, coating.case, blade.reduced, f_omega, stored, longer)
     return Map(collected, blade.f1_hz, coating.config)
-
-
-def solve_all(
-    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
-) -> list[Run]:
-    """Simulate `runs` of a coating, `jobs` at once, without histories; other arguments as of `simulate`."""
-    if not isinstance(jobs, int) or jobs < 1:
-        raise InputError("jobs", jobs, "must be at least 1")
-    with step("compiling the time loop", progress):
-        compile_kernel(runs[0].spec.turns, blade.reduced.n_interface, runs[0].spec.coating.element_law)
-    runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade
-    config, row = runs[0].config, row_of(runs[0].config)
-    planned = [planned_run(config, run.spec, f"{n}.h5", False, row, follow) for n, run in enumerate(runs)]
-    plan = CoatingPlan(runs[0].case, tuple(planned))
-    with bar(len(runs), "run", progress) as line:
-        stored, longer = compute_all(
-            config, plan, blade.reduced, blade.digest, threads=jobs, advance=line.update
-        )
-    pairs = zip(stored, longer, strict=True)
-    return [Run(run, Run(more) if more else None, config=config) for run, more in pairs]

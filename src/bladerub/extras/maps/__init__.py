@@ -1,0 +1,1 @@
+"""The map of one coating over the speed in Python: simulated, read from a study, drawn, as a table."""

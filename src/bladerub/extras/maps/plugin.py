@@ -1,0 +1,3 @@
+"""Maps of coatings in Python."""
+
+PUBLIC = dict.fromkeys(("Map", "read_map", "simulate_speeds"), "extras.maps.interface")
