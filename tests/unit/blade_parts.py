@@ -1,7 +1,3 @@
-import numpy as np
-from skfem import MeshTet1
-
-from bladerub.blade.mesh import MeshTetP2
 from bladerub.settings.blade import Material, Mesh, Reduction, SpanSection
 from bladerub.settings.study import whole
 
@@ -28,14 +24,3 @@ TWISTED = BLADE(
     ],
     mesh=Mesh(chordwise=7, thickness=1, spanwise=3),
 )
-
-
-def tetrahedral_mesh(xi, eta, zeta, points):
-    """As `bladerub.blade.mesh.hexahedral_mesh`, each cell of the lattice cut into tetrahedra."""
-    cube = MeshTet1.init_tensor(xi, eta, zeta)
-    edges = np.diff(cube.p[:, cube.t], axis=1)
-    left_handed = np.einsum("in,in->n", np.cross(edges[:, 0], edges[:, 1], axis=0), edges[:, 2]) < 0
-    t = np.where(left_handed, cube.t[[1, 0, 2, 3]], cube.t)
-    cube = MeshTet1(cube.p, t)
-    parameters = np.hstack([cube.p, cube.p[:, cube.edges].mean(axis=1)])
-    return MeshTetP2(points(*parameters), cube.t), parameters

@@ -23,7 +23,7 @@ from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.stress.nodal import NodalStress, running_displacement, von_mises
 from bladerub.io.folders import ROOT
 from bladerub.settings.blade import Mesh
-from tests.unit.blade_parts import tetrahedral_mesh
+from tests.unit.tetrahedra import tetrahedral_mesh
 
 CCX = shutil.which("ccx")
 SPEEDS = [0.0, 0.2, 0.4]

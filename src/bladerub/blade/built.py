@@ -7,13 +7,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.accuracy import ACCURACY_COLUMNS
 from bladerub.blade.files import accuracy_path, mesh_path
-from bladerub.blade.mesh import BladeMesh, NodeCloud, solid_mesh
+from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import AXIS, ReducedBlade, interface_node, write_reduced_blade
-from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import hdf5, tables
-from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 
 
@@ -68,24 +65,3 @@ def write(built: BuiltBlade, origin: Mapping[str, str], reduced_model: Path) -> 
     hdf5.write(mesh_path(reduced_model), variables, {"made_from": built.made_from}, origin)
     tables.write(accuracy_path(reduced_model), built.accuracy, origin, float_format="%.10g")
     write_reduced_blade(reduced_model, built.reduced, origin)
-
-
-def read(reduced_model: Path) -> BuiltBlade:
-    """Read the blade that `write` wrote: written again, it gives the same bytes.
-
-    Raises an OSError that names the file if one is missing or damaged.
-    """
-    path = mesh_path(reduced_model)
-    data, attributes = hdf5.read(path)
-    try:
-        points, cells = data["points"], data["cells"]
-        mesh, _ = solid_mesh(points, cells) if len(cells) else (NodeCloud(points), None)
-        return BuiltBlade(
-            read_reduced_blade(reduced_model),
-            BladeMesh(mesh, *(data[f"{name}_nodes"] for name in ("root", "tip", "interface"))),
-            *map(data.__getitem__, ("frequency", "mode_shape", "recovery", "static_displacement", "f_omega")),
-            tables.read(accuracy_path(reduced_model), ACCURACY_COLUMNS),
-            attributes["made_from"],
-        )
-    except (KeyError, ValueError) as error:
-        raise DamagedFile(f"{path}: not the mesh of a blade ({error})") from error

@@ -1,14 +1,12 @@
-"""Meshes of quadratic elements, curved at their mid-side nodes; the blade's mesh and its free coordinates."""
+"""The blade's mesh of quadratic elements, curved at their mid-side nodes, and its free coordinates."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
-from skfem import MeshHex1, MeshTet2
-from skfem.element import Element, ElementHexS2, ElementTetP2
-from skfem.quadrature import get_quadrature
-from skfem.refdom import RefTet
+from skfem import MeshHex1
+from skfem.element import Element, ElementHexS2
 
 from bladerub.blade.geometry import check_interface, corner_jacobians, lattice
 from bladerub.blade.model import N_INTERFACE
@@ -40,8 +38,8 @@ class FreeCoordinates:
         return np.searchsorted(self.free, (3 * np.asarray(nodes)[:, None] + np.arange(3)).ravel())
 
 
-class _Solid:
-    """What the meshes of both kinds of element have in common; corners first in ``doflocs``, then edges.
+class SolidMesh:
+    """What meshes of quadratic elements have in common; corners first in ``doflocs``, then edges.
 
     ``quadrature`` gives the integration points of the stiffness, ``mass_quadrature`` of mass and volume.
     """
@@ -60,7 +58,7 @@ class _Solid:
 
 
 @dataclass(repr=False)
-class MeshHexS2(_Solid, MeshHex1):
+class MeshHexS2(SolidMesh, MeshHex1):
     """Hexahedra mapped by the 20-node serendipity element.
 
     scikit-fem has an isoparametric `MeshHex2`, but of 27 nodes: its geometry would be finer than the
@@ -81,35 +79,6 @@ class MeshHexS2(_Solid, MeshHex1):
     mass_quadrature = quadrature
 
 
-@dataclass(repr=False)
-class MeshTetP2(_Solid, MeshTet2):
-    """Tetrahedra mapped by the 10-node element."""
-
-    elem: type[Element] = ElementTetP2
-    order: ClassVar[list[int]] = list(range(10))
-
-    @staticmethod
-    def quadrature() -> tuple[np.ndarray, np.ndarray]:
-        """Give the four points of C3D10: exact for straight elements, and they strain every shape of it."""
-        return get_quadrature(RefTet, 2)
-
-    @staticmethod
-    def mass_quadrature() -> tuple[np.ndarray, np.ndarray]:
-        """Give 14 points, exact to the fifth degree: the mass needs the fourth (CalculiX has only four)."""
-        return get_quadrature(RefTet, 5)
-
-
-SolidMesh = MeshHexS2 | MeshTetP2
-
-
-@dataclass(frozen=True)
-class NodeCloud:
-    """The nodes of a body whose elements are not known: a mesh without elements."""
-
-    points: np.ndarray = field(repr=False)  # (n_nodes, 3), m
-    cells: np.ndarray = field(repr=False, default_factory=lambda: np.empty((0, 20), dtype=int))
-
-
 _ALONG_THE_CUBE = [7, 4, 6, 5, 2, 1, 3, 0]  # scikit-fem numbers its tensor meshes left-handed
 
 
@@ -127,35 +96,11 @@ def hexahedral_mesh(
     return MeshHexS2(points(*parameters), cube.t), parameters
 
 
-def solid_mesh(points: np.ndarray, cells: np.ndarray) -> tuple[SolidMesh, np.ndarray]:
-    """Make a mesh of quadratic elements, its nodes numbered as scikit-fem does.
-
-    `points` (n_points, 3) are in m; `cells` (n_elements, 20 or 10) are in the order of CalculiX and VTK. Also
-    returns the row of `points` (n_nodes,) of each node of the mesh; rows that no element uses are left out.
-    A ValueError names an element, or node, from 1 whose mid-side nodes are not shared as its edges are.
-    """
-    kind = MeshHexS2 if cells.shape[1] == 20 else MeshTetP2
-    n_corners = kind.elem.refdom.nnodes
-    vertices, corners = np.unique(cells[:, :n_corners], return_inverse=True)
-    t = np.empty((n_corners, len(cells)), dtype=np.int32)
-    t[kind.order[:n_corners]] = corners.reshape(-1, n_corners).T
-    numbered = kind(np.ascontiguousarray(points[vertices].T), t).cells
-    origin = np.empty(numbered.max() + 1, dtype=int)
-    origin[numbered] = cells
-    loose = np.any(origin[numbered] != cells, axis=1)
-    if loose.any():
-        raise ValueError(f"element {np.argmax(loose) + 1}: must share the mid-side nodes of its neighbours")
-    if np.unique(origin).size < origin.size:
-        twice = np.argmax(np.bincount(origin) > 1)
-        raise ValueError(f"node {twice + 1}: is in the middle of more than one edge, or a corner as well")
-    return kind(np.ascontiguousarray(points[origin].T), t), origin
-
-
 @dataclass(frozen=True)
 class BladeMesh:
     """The blade's mesh and the node sets on it."""
 
-    mesh: SolidMesh | NodeCloud  # nodes alone where another program has made matrices of the elements
+    mesh: SolidMesh  # or the `points` alone, with no `cells`, of a blade of matrices
     root: np.ndarray = field(repr=False)  # nodes that are clamped
     tip: np.ndarray = field(repr=False)  # nodes of the tip face
     interface: np.ndarray  # (j,) nodes of the tip's camber line that may touch, leading to trailing edge

@@ -1,15 +1,6 @@
-"""Edges and faces of quadratic elements, and the surface of a mesh of them."""
+"""The surface of a mesh of quadratic elements."""
 
 import numpy as np
-
-NAMES = {20: "hexahedron20", 10: "tetra10"}  # in meshio, by the number of nodes
-
-EDGES = {  # by the number of nodes: the corners at the ends of each edge, in the order of its mid-side nodes
-    20: np.array(
-        [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
-    ),
-    10: np.array([(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]),
-}
 
 FACES = {  # corners and mid-side nodes in turn around each face of an element, seen from outside
     20: np.array(

@@ -6,13 +6,13 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-from bladerub.blade.built import read
 from bladerub.extras.blade_comparison import blades, runs
+from bladerub.extras.blade_meshes import read_built
 from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
-built, reference = (read(Path(snakemake.input[name])) for name in ("blade", "reference"))
+built, reference = (read_built(Path(snakemake.input[name])) for name in ("blade", "reference"))
 maps = [*map(read_map, snakemake.input.maps)]
 half = len(maps) // 2
 outputs.save(

@@ -2,10 +2,10 @@ import itertools
 
 import numpy as np
 import pytest
-from blade_parts import tetrahedral_mesh
 from scipy import sparse
 from skfem import Basis, BilinearForm, ElementVector, LinearForm
 from skfem.helpers import ddot, eye, grad, identity, trace, transpose
+from tetrahedra import tetrahedral_mesh
 
 from bladerub.blade import elasticity
 from bladerub.blade.mesh import hexahedral_mesh

@@ -1,4 +1,5 @@
 import dataclasses
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 
 from bladerub.blade.accuracy import accuracy_table, doubts
 from bladerub.blade.frequencies import reduced_frequencies
-from bladerub.blade.mesh import BladeMesh, NodeCloud
+from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import write_reduced_blade
 from bladerub.blade.reduction import directions, tip_slope
 from bladerub.blade.validation import read_reduced_blade, read_valid_blade
@@ -63,7 +64,7 @@ def test_turn_about_the_axis_of_rotation_has_its_angle_as_slope():
     x, arc = (0.5 * along - 0.8 * across).ravel(), (0.8 * along + 0.5 * across).ravel()
     points = np.column_stack([x, RADIUS * np.sin(arc / RADIUS), RADIUS * np.cos(arc / RADIUS)])
     middle = np.flatnonzero(np.isclose(across.ravel(), 0))[::2]
-    tip = BladeMesh(NodeCloud(points), np.array([], dtype=int), np.arange(len(points)), middle)
+    tip = BladeMesh(SimpleNamespace(points=points), np.array([], dtype=int), np.arange(len(points)), middle)
     _, y, z = tip.mesh.points.T
     turn = np.column_stack([0 * y, z, -y])  # forward by 1 rad, to first order
     along = directions(tip.mesh.points[tip.interface], 0.0)

@@ -6,7 +6,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from bladerub.blade.mesh import SolidMesh
-from bladerub.blade.surface import EDGES
+from bladerub.extras.blade_meshes import EDGES
 
 FARTHEST = 1e9  # coordinate in any unit; beyond 1e154 squares overflow
 _SAME_PLACE = 1e-7  # of the extent of the mesh

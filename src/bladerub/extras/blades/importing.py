@@ -6,9 +6,10 @@ from difflib import get_close_matches
 import numpy as np
 
 from bladerub.blade.linear import MOST_UNKNOWNS
-from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
+from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import N_INTERFACE
-from bladerub.blade.surface import EDGES, boundary_faces, normals
+from bladerub.blade.surface import boundary_faces, normals
+from bladerub.extras.blade_meshes import EDGES, solid_mesh
 from bladerub.extras.blades import element_quality, mesh_file, origin, profile, section_blade
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.section_profile import Profile

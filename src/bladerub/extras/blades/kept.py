@@ -6,6 +6,7 @@ from bladerub.blade import built
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.cache import kept_at
 from bladerub.blade.files import is_built
+from bladerub.extras.blade_meshes import read_built
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 
@@ -21,5 +22,5 @@ def kept(config: Config) -> BuiltBlade | None:
     with suppress(OSError):
         path = kept_at(config)
         if is_built(config, path):
-            return built.read(path)
+            return read_built(path)
     return None

@@ -16,10 +16,10 @@ from bladerub.blade.mesh import (
     BladeMesh,
     FreeCoordinates,
     MeshedBlade,
-    NodeCloud,
     check_length,
 )
 from bladerub.blade.reduction import fit_speeds
+from bladerub.extras.blade_meshes import NodeCloud
 from bladerub.extras.blades import matrix_folder, origin, rigid_body
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import measured

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub.blade.surface import EDGES
+from bladerub.extras.blade_meshes import EDGES
 from bladerub.extras.blades import deck_mesh, origin
 from bladerub.extras.blades.deck_mesh import Content
 from bladerub.io.optional import package

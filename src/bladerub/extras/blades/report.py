@@ -13,7 +13,7 @@ from bladerub.blade.built import BuiltBlade
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.surface import EDGES, NAMES
+from bladerub.extras.blade_meshes import EDGES, NAMES
 from bladerub.extras.blades import origin
 from bladerub.extras.blades.importing import Imported
 from bladerub.extras.blades.matrices import ImportedMatrices

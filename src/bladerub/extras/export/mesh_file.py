@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub.blade.surface import NAMES, boundary_faces
+from bladerub.blade.surface import boundary_faces
+from bladerub.extras.blade_meshes import NAMES
 from bladerub.io import atomic
 from bladerub.io.optional import package
 

@@ -12,7 +12,8 @@ from skfem import Basis
 from skfem.quadrature import get_quadrature
 
 from bladerub.blade.elasticity import lame
-from bladerub.blade.mesh import MeshHexS2, solid_mesh
+from bladerub.blade.mesh import MeshHexS2
+from bladerub.extras.blade_meshes import solid_mesh
 from bladerub.settings.blade import Material
 
 

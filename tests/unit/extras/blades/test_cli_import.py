@@ -14,6 +14,7 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.cli import main
 from bladerub.config import read as configuration
+from bladerub.extras.blade_meshes import read_built
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.export.sections import write_sections
 from bladerub.io.folders import ROOT
@@ -65,7 +66,7 @@ def test_figures_of_the_default_blade(look, folder, tmp_path, monkeypatch):
     source = {"file": str(folder / "blade.inp"), "unit": "mm", **axes, **sets}
     assert figures["config"]["blade"]["source"] == source
     (path,) = (tmp_path / "cache").rglob("reduced_model.h5")
-    blade = built.read(path).reduced
+    blade = read_built(path).reduced
     assert [each["order"] for each in figures["crossings"]] == list(range(4, 13))
     for each in figures["crossings"]:
         first = reduced_frequencies(blade, each["f_omega"], 1)[0]

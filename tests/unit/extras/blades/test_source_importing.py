@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from blade_parts import REDUCTION, TITANIUM, TWISTED, section, tetrahedral_mesh
+from blade_parts import REDUCTION, TITANIUM, TWISTED, section
+from tetrahedra import tetrahedral_mesh
 
 from bladerub.blade.build import meshed_blade, reduce_meshed
 from bladerub.blade.geometry import BladeShape, lattice

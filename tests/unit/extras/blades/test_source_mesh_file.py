@@ -1,10 +1,11 @@
 import meshio
 import numpy as np
 import pytest
-from blade_parts import TWISTED, tetrahedral_mesh
+from blade_parts import TWISTED
+from tetrahedra import tetrahedral_mesh
 
 from bladerub.blade.mesh import hexahedral_mesh
-from bladerub.blade.surface import EDGES
+from bladerub.extras.blade_meshes import EDGES
 from bladerub.extras.blades import deck, file_source
 from bladerub.extras.blades.mesh_file import read
 from bladerub.extras.blades.settings import Source
