@@ -31,14 +31,11 @@ def build(config: BladeSpec) -> BuiltBlade:
 
 def frequency_at_rest(config: BladeSpec) -> float:
     """Return the first frequency at rest (Hz) of the blade that `build` builds; raises the same."""
-    if source := reader(config.blade):
+    source = reader(config.blade)
+    if source and not hasattr(source, "meshed"):
         return source.frequency_at_rest(config)
-    return frequency_of_mesh(meshed_blade(config.blade, n_interface(config)), config)
-
-
-def frequency_of_mesh(blade: MeshedBlade, config: BladeSpec) -> float:
-    """Return the first frequency at rest (Hz) of a meshed blade of the material of `config`."""
-    return float(by_finite_elements(blade, config.blade.material, (), (), 1).frequency[0])
+    meshed = meshed_blade(config.blade, n_interface(config))
+    return float(by_finite_elements(meshed, config.blade.material, (), (), 1).frequency[0])
 
 
 def reduce_meshed(blade: MeshedBlade, config: BladeSpec) -> BuiltBlade:

@@ -9,7 +9,7 @@ Each key of ``blade.source`` that names a place, such as a file, has a module of
 ``files(source)``             the files that the block ``source`` names, relative to the study
 ``meshed(blade, n_nodes)``    the meshed blade with `n_nodes` interface nodes, where there are elements
 ``build(config)``             the `bladerub.blade.built.BuiltBlade`
-``frequency_at_rest(config)`` its first frequency at rest, Hz
+``frequency_at_rest(config)`` its first frequency at rest, Hz, where there are none
 ============================= ==========================================================================
 """
 
@@ -19,8 +19,8 @@ from bladerub import plugins
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Blade, BladeSpec
 
-FUNCTIONS = ("problems", "recipe", "files", "build", "frequency_at_rest")
-"""What the module of every source has."""
+FUNCTIONS = ("problems", "recipe", "files", "build")
+"""What the module of every source has, besides ``meshed`` or ``frequency_at_rest``."""
 
 
 def place(blade: Blade) -> str | None:
@@ -53,7 +53,8 @@ def reader(blade: Blade) -> ModuleType | None:
     if name is None:
         return None
     module = plugins.load(name)
-    if missing := [function for function in FUNCTIONS if not hasattr(module, function)]:
+    needed = FUNCTIONS if hasattr(module, "meshed") else (*FUNCTIONS, "frequency_at_rest")
+    if missing := [function for function in needed if not hasattr(module, function)]:
         raise BadInput(f"bladerub.{name}: has no {', '.join(missing)}; a source of blades must have them")
     return module
 

@@ -71,10 +71,3 @@ def build(config: Config) -> "BuiltBlade":
     from bladerub.extras.blades.kept import kept
 
     return kept(config) or reduce_meshed(meshed_blade(config.blade, n_interface(config)), config)
-
-
-def frequency_at_rest(config: Config) -> float:
-    """Compute the first frequency at rest, Hz; raises as `meshed`."""
-    from bladerub.blade.build import frequency_of_mesh, meshed_blade
-
-    return frequency_of_mesh(meshed_blade(config.blade, n_interface(config)), config)
