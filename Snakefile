@@ -77,10 +77,6 @@ for rules_of_study in RULES_OF_STUDIES:
 include: "src/rules/images.smk"
 
 
-localrules:
-    all,
-
-
 rule all:
     default_target: True
     input:
@@ -94,3 +90,4 @@ rule all:
         FIGURES,
         JUDGED,
         list(ADDED_TO_ALL.values()),
+    localrule: True

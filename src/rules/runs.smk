@@ -16,11 +16,6 @@ def plan_of(coating):
     return coating_plan(STUDY, case_from_name(STUDY, coating))
 
 
-def planned_runs(wildcards):
-    """All that determines the runs of a coating but the blade: a changed one is a reason to run."""
-    return {run.file: run.determinants for run in plan_of(wildcards.coating).runs}
-
-
 def minutes_for(runs, attempt):
     """The time to ask a cluster for: a minute to start, and three times what the revolutions took."""
     revolutions = sum(run.spec.revolutions * run.n_blades for run in runs)
@@ -67,6 +62,8 @@ rule compile_kernel:
         script_of("compile_kernel")
 
 
+# What every simulation takes
+SIMULATING = {"blade": rules.blade.output.reduced_model, "kernel": rules.compile_kernel.output[0]}
 MANIFEST = f"{RESULTS}/runs/{{coating}}/manifest.tsv"
 MAP = f"{RESULTS}/maps/{{coating}}.h5"
 
@@ -77,8 +74,7 @@ rule coating:
     input:
         replaces(workflow, MANIFEST),
         replaces(workflow, MAP, damage),
-        blade=rules.blade.output.reduced_model,
-        kernel=rules.compile_kernel.output[0],
+        **SIMULATING,
         analysing=files_behind("study.maps"),
     output:
         manifest=MANIFEST,
@@ -98,7 +94,8 @@ rule coating:
         folder=subpath(output.manifest, parent=True),
         lobe_prominence=config["analysis"]["lobe_prominence"],
         plan=lambda wildcards: plan_of(wildcards.coating),  # no reason to run, being an object
-        planned=planned_runs,
+        # all that determines the runs but the blade: a changed one is a reason to run
+        planned=lambda wildcards: {run.file: run.determinants for run in plan_of(wildcards.coating).runs},
         confirmed=growth_key(STUDY),
     script:
         "../scripts/coating.py"

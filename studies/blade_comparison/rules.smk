@@ -27,6 +27,3 @@ rule blade_comparison:
         f"{RESULTS}/logs/blade_comparison.log",
     script:
         "scripts/blade_comparison.py"
-
-
-# With `--configfile config/twisted_plate.yaml`

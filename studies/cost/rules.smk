@@ -3,11 +3,6 @@
 MEASURED = f"{RESULTS}/benchmarks"  # all that differs from one execution to the next
 
 
-def added():
-    """The rules that studies add to `all`, but for this one."""
-    return [name for name in ADDED_TO_ALL if name != "cost"]
-
-
 rule cost:
     input:
         # not for what is in them: any job that was repeated may have another cost
@@ -15,7 +10,7 @@ rule cost:
         rules.divergence.output,
         FIGURES,
         JUDGED,
-        lambda wildcards: [path for name in added() for path in ADDED_TO_ALL[name]],
+        lambda wildcards: [path for name, paths in ADDED_TO_ALL.items() if name != "cost" for path in paths],
         maps=expand(rules.coating.output.map, coating=COATINGS),
         collecting=files_behind("extras.cost.jobs"),
     output:
@@ -28,7 +23,7 @@ rule cost:
         "drawing"
     params:
         benchmarks=MEASURED,
-        added=lambda wildcards: added(),
+        added=lambda wildcards: [name for name in ADDED_TO_ALL if name != "cost"],
         dpi=DPI,
     script:
         "scripts/cost.py"

@@ -15,9 +15,8 @@ rule ensemble:
     input:
         replaces(workflow, ENSEMBLE, damage),
         replaces(workflow, MEMBERS),
+        **SIMULATING,
         map=rules.coating.output.map,
-        blade=rules.blade.output.reduced_model,
-        kernel=rules.compile_kernel.output[0],
         analysing=files_behind("extras.ensembles.ensemble", "study.maps"),
     output:
         ENSEMBLE,

@@ -7,8 +7,7 @@ COMPARED = [case.name for case in compared(STUDY)]
 rule friction:
     input:
         manifests=expand(rules.coating.output.manifest, coating=COMPARED),
-        analysing=files_behind("extras.friction.table", "study.summary"),
-        drawing=files_behind("extras.plots.friction"),
+        code=files_behind("extras.friction.table", "extras.plots.friction", "study.summary"),
     output:
         **drawn("friction", "Angle of the elements"),
         **described(table=f"{TABLES}/friction.csv"),

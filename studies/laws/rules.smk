@@ -5,8 +5,7 @@ from bladerub import plugins
 rule laws:
     input:
         model=files_behind("contact.illustration"),
-        laws=files_behind(*plugins.offered("LAWS").values()),
-        drawing=files_behind("extras.plots.law_cycles"),
+        drawing=files_behind("extras.plots.law_cycles", *plugins.offered("LAWS").values()),
     output:
         **drawn("laws", "Model", with_data=True),
     log:
@@ -23,8 +22,7 @@ rule laws:
 # How much the heat of the rub changes one run
 rule heat:
     input:
-        blade=rules.blade.output.reduced_model,
-        kernel=rules.compile_kernel.output[0],
+        **SIMULATING,
         computing=files_behind("extras.heat", "extras.laws.thermal"),
     output:
         **described(table=f"{TABLES}/heat.csv"),
@@ -37,6 +35,3 @@ rule heat:
         analysis=config["analysis"],
     script:
         "scripts/heat.py"
-
-
-# With `--config calibration=config/laws.yaml results=results/laws`, whose rules make these tables; heat likewise

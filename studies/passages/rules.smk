@@ -43,8 +43,7 @@ rule sweeps:
 
 rule sweep:
     input:
-        blade=rules.blade.output.reduced_model,
-        kernel=rules.compile_kernel.output[0],
+        **SIMULATING,
         analysing=files_behind("extras.passages.sweeps", "extras.passages.sweep_grid", "study.spectra"),
     output:
         SWEEPS,
@@ -83,8 +82,7 @@ rule long_runs:
 rule long_coating:
     input:
         map=rules.coating.output.map,
-        blade=rules.blade.output.reduced_model,
-        kernel=rules.compile_kernel.output[0],
+        **SIMULATING,
         analysing=files_behind("extras.passages.long_runs", "study.peaks", "study.growth"),
     output:
         f"{RESULTS}/long_runs/{{coating}}.h5",

@@ -6,9 +6,7 @@ from bladerub.extras.rig.spec import PLAN as RIGS
 rule rigs:
     input:
         rigs=RIGS.as_posix(),
-        laws=files_behind(*plugins.offered("LAWS").values()),
-        computing=files_behind("extras.rig.passes"),
-        drawing=files_behind("extras.plots.rigs"),
+        code=files_behind("extras.rig.passes", "extras.plots.rigs", *plugins.offered("LAWS").values()),
     output:
         **drawn("rigs", "Model", with_data=True),
         **described(table=f"{TABLES}/rigs.csv"),

@@ -3,17 +3,13 @@
 
 rule stress:
     input:
-        blade=rules.blade.output.reduced_model,
+        **SIMULATING,
         mesh=rules.blade.output.mesh,
-        kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
-        analysing=files_behind("extras.stress.table"),
-        drawing=files_behind("extras.plots.stress"),
+        code=files_behind("extras.stress.table", "extras.plots.stress"),
     output:
         **drawn("stress_peaks", "6. Sweeps and long runs"),
-        **described(
-            table=shown(f"{TABLES}/stress.csv", "stress", "6. Sweeps and long runs"),
-        ),
+        **described(table=shown(f"{TABLES}/stress.csv", "stress", "6. Sweeps and long runs")),
     log:
         f"{RESULTS}/logs/stress.log",
     resources:

@@ -15,6 +15,19 @@ WORKFLOW = {
     "name": "bladerub: contact of a compressor blade with its abradable coating",
     "description": "Builds a reduced blade, simulates its contact with coatings, collects maps and tables.",
 }
+FOLDERS = {  # by their names in the crate
+    "src/rules": "Rules of the workflow",
+    "src/scripts": "Scripts of its jobs",
+    "src/report": "Captions of its figures",
+    "studies": "Rules, scripts and captions of further studies",
+    "config": "Config of the study and its schema",
+    "results/blade": "Reduced model and mesh of the blade",
+    "results/maps": "Wear and spectra over the speed, a file for each coating",
+    "results/tables": (
+        "Frequencies, peaks, divergence, verdicts on the claims; CSV with a description of each column"
+    ),
+    "results/figures": "Figures, PNG and PDF, with their data",
+}
 crate = ROCrate()
 crate.name = "A study with bladerub"
 crate.description = "Wear maps, spectra, peaks and verdicts on divergence, and the workflow that made them."
@@ -23,16 +36,8 @@ for name, value in provenance(snakemake.config).items():
     entry = {"@id": f"#{name}", "@type": "PropertyValue", "name": name, "value": value}
     crate.root_dataset.append_to("additionalProperty", crate.add_jsonld(entry))
 crate.add_workflow("Snakefile", main=True, lang="snakemake", properties=WORKFLOW)
-folders = {
-    "src/rules": "Rules of the workflow",
-    "src/scripts": "Scripts of its jobs",
-    "src/report": "Captions of its figures",
-    "studies": "Rules, scripts and captions of further studies",
-}
-for name, description in folders.items():
-    crate.add_directory(ROOT / name, name, properties={"description": description})
-crate.add_directory("config", "config", properties={"description": "Config of the study and its schema"})
-results = Path(snakemake.params.results)
-for name, description in snakemake.params.folders.items():
-    crate.add_directory(results / name, f"results/{name}", properties={"description": description})
+for name, description in FOLDERS.items():
+    place, _, folder = name.partition("/")
+    source = {"results": Path(snakemake.params.results, folder), "config": place}.get(place, ROOT / name)
+    crate.add_directory(source, name, properties={"description": description})
 crate.write_zip(snakemake.output[0])
