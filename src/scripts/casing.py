@@ -1,6 +1,6 @@
 """Fig. 5, initial inner shape of a casing, along each nodal diameter alone and combined (inward, m)."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -13,7 +13,6 @@ from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.plots.polar import casing_polar
-from bladerub.workflow import outputs
 
 MOST_MAGNIFIED, LARGEST = 150, 0.4  # times, and over the radius what is drawn of a larger distortion
 

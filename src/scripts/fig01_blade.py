@@ -3,11 +3,10 @@
 The data are ``blade/mesh.h5``.
 """
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.plots import blade_mesh
-from bladerub.workflow import outputs
 
 outputs.save(snakemake, blade_mesh.blade_mesh(*blade_mesh.read_mesh(snakemake.input.mesh)))

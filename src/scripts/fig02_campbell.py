@@ -1,13 +1,12 @@
 """Fig. 2: Campbell diagram of the finite element model and of the reduced model, normalised by f1 at rest."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.accuracy import CAMPBELL_COLUMNS
 from bladerub.io import hdf5, tables
 from bladerub.plots.campbell import campbell
-from bladerub.workflow import outputs
 
 table = tables.read(snakemake.input.campbell, CAMPBELL_COLUMNS)
 table[["f_fe", "f_rom"]] /= hdf5.read_attributes(snakemake.input.blade)["f1_hz"]

@@ -3,7 +3,7 @@
 The data are in m, stress normalised.
 """
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -15,7 +15,6 @@ from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.illustration import pressed_elements
 from bladerub.contact.spec import PLASTIC, Coating, TipProfile
 from bladerub.plots.tip_profile import tip_profile
-from bladerub.workflow import outputs
 
 DEPTH = 0.15e-3  # of the node below the original surface, m: usual in the study
 REACH = 6  # elements shown on each side of the node

@@ -1,6 +1,6 @@
 """Fig. 4: stress–strain cycle of the coating by its return mapping, for the study's σ_Y and a visible one."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -11,7 +11,6 @@ import pandas as pd
 from bladerub.contact.illustration import loading_cycle
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.plots.coating_cycle import coating_cycle
-from bladerub.workflow import outputs
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # load, unload, reload further, unload
 STEPS = 400  # of each branch

@@ -1,6 +1,6 @@
 """Judge the claims of the paper."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -9,7 +9,6 @@ from bladerub.settings.study import typed
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.maps import read_map
-from bladerub.workflow import outputs
 
 inputs = snakemake.input
 measured_on = {

@@ -1,6 +1,6 @@
 """Figs. 11 to 14: amplitude (m, drawn in mm) or speed of the peak on an engine order, over E and K."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -8,7 +8,6 @@ from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
 from bladerub.study.peaks import COLUMNS
 from bladerub.study.variants import plain
-from bladerub.workflow import outputs
 
 settings = snakemake.params
 peaks = plain(tables.read(snakemake.input.peaks, COLUMNS)).query(settings.coatings)

@@ -1,11 +1,10 @@
 """Figs. 17 and 18, and the same at our own speeds: radial displacement of node 1 (m), both angles."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.plots.history import history
-from bladerub.workflow import outputs
 
 for name, runs in snakemake.params.figures.items():
     data, figure = history(runs, snakemake.params.scales["modulus_unit"])

@@ -1,6 +1,6 @@
 """Find the resonant peaks of every coating, or judge for every run whether it diverges."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ from bladerub.settings.study import typed
 from bladerub.study import divergence, peak_table
 from bladerub.study.grid import modulus_unit
 from bladerub.study.maps import read_map
-from bladerub.workflow import outputs
 
 TABLES = {  # what makes each, its column of speeds, and that of the same in rpm
     "peaks": (peak_table.table, "f_peak", "f_peak_rpm"),

@@ -3,13 +3,12 @@
 The data are the map of the coating in ``maps/``.
 """
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.study.maps import read_map
-from bladerub.workflow import outputs
 
 settings = snakemake.params
 look = settings.amplitude_range, settings.max_frequency

@@ -3,12 +3,11 @@
 The data are the map of the coating in ``maps/``.
 """
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.maps import read_map
-from bladerub.workflow import outputs
 
 outputs.save(snakemake, wear_map(read_map(snakemake.input.map), outputs.scales(snakemake)))

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub import plugins
-from bladerub.io import hdf5, tables
+from bladerub.io import tables
 from bladerub.io.provenance import provenance
 
 if TYPE_CHECKING:
@@ -46,6 +46,8 @@ def save(
 
 def rpm(snakemake: Any, f_omega: "pd.Series") -> "pd.Series":
     """Turn normalised speeds into revolutions a minute of the input ``blade`` of a job."""
+    from bladerub.io import hdf5  # takes long, and a job opens its log before
+
     return 60 * hdf5.read_attributes(snakemake.input.blade)["f1_hz"] * f_omega
 
 
@@ -55,6 +57,7 @@ def scales(snakemake: Any) -> "Scales":
     The parameter has ``modulus_unit`` (Pa) and ``length`` (m) and ``engine``: what is known of the rotor but
     the first frequency of its blade.
     """
+    from bladerub.io import hdf5
     from bladerub.plots.scales import Engine, Scales
 
     f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]

@@ -1,6 +1,6 @@
 """Compare the blade of a config with that of the study, and the coatings that both have."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ from bladerub.extras.blade_comparison import blades, runs
 from bladerub.extras.blade_meshes import read_built
 from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
-from bladerub.workflow import outputs
 
 built, reference = (read_built(Path(snakemake.input[name])) for name in ("blade", "reference"))
 maps = [*map(read_map, snakemake.input.maps)]

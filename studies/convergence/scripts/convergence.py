@@ -1,6 +1,6 @@
 """How accurate runs are; peaks with finer bars, with more nodes, and with other treatments of impact."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -13,7 +13,6 @@ from bladerub.extras.verification import accuracy, refinement, rigid_casing, ste
 from bladerub.io import tables
 from bladerub.settings.study import typed
 from bladerub.study.peaks import COLUMNS
-from bladerub.workflow import outputs
 
 blade, config, figure = read_reduced_blade(snakemake.input.blade), typed(snakemake.config), None
 if path := snakemake.input.get("peaks"):

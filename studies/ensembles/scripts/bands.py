@@ -1,6 +1,6 @@
 """Find the bands of peaks and runs, and judge the claims of the paper on each draw of the study."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ from bladerub.settings.study import typed
 from bladerub.study import findings
 from bladerub.study.findings.evidence import read_rom_accuracy
 from bladerub.study.maps import read_map
-from bladerub.workflow import outputs
 
 config, inputs = typed(snakemake.config), snakemake.input
 study = [read_map(path) for path in inputs.maps], [ensemble.read(path) for path in inputs.ensembles]

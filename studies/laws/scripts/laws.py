@@ -1,6 +1,6 @@
 """Stress–strain cycles of one element by the laws beside the paper's, for some of their parameters."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -13,7 +13,6 @@ from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.plots.law_cycles import law_cycles
-from bladerub.workflow import outputs
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4
 STEPS = 400  # of each branch

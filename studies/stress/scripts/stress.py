@@ -1,6 +1,6 @@
 """Table and figure of the largest stress of the blade at the peaks."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -11,7 +11,6 @@ from bladerub.io import tables
 from bladerub.plots.scales import Engine
 from bladerub.settings.study import typed
 from bladerub.study.peaks import COLUMNS
-from bladerub.workflow import outputs
 
 blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
 stresses = table(snakemake.input.mesh, blade, typed(snakemake.config), peaks)
