@@ -1,7 +1,4 @@
-"""Fig. 1: the blade's mesh, its clamped root and its eight interface nodes.
-
-The data are ``blade/mesh.h5``.
-"""
+"""Fig. 1: the blade's mesh (``blade/mesh.h5``), its clamped root and its eight interface nodes."""
 
 from bladerub.workflow import job, outputs
 

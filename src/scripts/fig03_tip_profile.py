@@ -1,7 +1,4 @@
-"""Fig. 3: the tip profile under an interface node that has passed over abradable elements.
-
-The data are in m, stress normalised.
-"""
+"""Fig. 3: the tip profile (m) under a node that has passed over abradable elements, stress normalised."""
 
 from bladerub.workflow import job, outputs
 

@@ -1,7 +1,4 @@
-"""Figs. 7, 8, 9, 15 and 16: spectrum of the blade over the speed on one coating.
-
-The data are the map of the coating in ``maps/``.
-"""
+"""Figs. 7, 8, 9, 15 and 16: spectrum over the speed on one coating; the data are its map in ``maps/``."""
 
 from bladerub.workflow import job, outputs
 

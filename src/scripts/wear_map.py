@@ -1,7 +1,4 @@
-"""Fig. 6, wear patterns of the 2 + 5 casing, and the same of any coating.
-
-The data are the map of the coating in ``maps/``.
-"""
+"""Fig. 6, wear patterns of the 2 + 5 casing, or of any coating; the data are its map in ``maps/``."""
 
 from bladerub.workflow import job, outputs
 
