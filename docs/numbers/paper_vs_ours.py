@@ -83,8 +83,7 @@ def _longer_peaks(peaks, longer):
     ]
     both = peaks.merge(longer, on=["casing", "E", "K", "theta", "order", "law"], suffixes=("", "_longer"))
     both["fall"] = both["f_peak"] - both["f_peak_longer"]
-    ridge = both[(both["casing"] == "2nd") & (both["K"] == 0.5) & (both["theta"] == 0) & (both["order"] == 4)]
-    fall = ridge[ridge["E"] >= 1.1]["fall"]
+    fall = rows(both[both["E"] >= 1.1], casing="2nd", K=0.5, theta=0, order=4)["fall"]
     return {
         "Y4_soft_longer": span(soft[1], mm),
         "Y4_soft_20": span(soft[0], mm),

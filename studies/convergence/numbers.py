@@ -68,9 +68,7 @@ def _accuracy(accuracy):
     return {
         "drawn": fixed(len(drawn)),
         "important": fixed(len(important)),
-        "accurate_important": fixed(
-            ((important["error_wear_l2"] <= _LIMIT) & (important["error_peak"] <= _LIMIT)).sum()
-        ),
+        "accurate_important": fixed((important[["error_wear_l2", "error_peak"]] <= _LIMIT).all(axis=1).sum()),
         "by_modulus": table(
             by_modulus.sum().assign(runs=by_modulus.size()).reset_index(),
             {"E": "E", "runs": "runs", "beyond": "beyond 1 %", "sensitive": "of these chaotic"},
@@ -81,9 +79,7 @@ def _accuracy(accuracy):
             headings("casing", "E", "K", "theta", "f_omega")
             | {
                 f"error_{measure}": (f"{words}, %", lambda error: percent(error, 2))
-                for measure, words in zip(
-                    _MEASURES, ("wear", "spectral peak", "revolution peak"), strict=True
-                )
+                for measure, words in _MEASURES.items()
             }
             | {"by_start": ("most by another start, %", lambda change: percent(change, 2))},
         ),
