@@ -102,7 +102,7 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
     with naming(names[MASS]):
         rigid_body.check_mass(mass, rows)
     with naming(names["nodes"]):
-        rigid_body.check_places(stiffness_rest, places, rows, frame.turn)
+        rigid_body.check_places(stiffness_rest, places, rows)
     with naming(names[FIT[0]]):
         interface = np.searchsorted(numbers, layout.mesh.interface)
         rigid_body.check_stiffness(stiffness_rest, places, rows, points[layout.mesh.root], interface)

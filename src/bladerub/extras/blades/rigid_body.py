@@ -7,7 +7,6 @@ Translations show whether the coordinates are x, y, z node by node, rotations wh
 """
 
 from collections.abc import Callable
-from itertools import permutations, product
 
 import numpy as np
 from scipy import sparse
@@ -100,61 +99,42 @@ def check_stiffness(
     _check_coordinates(stiffness, away, rows, fault)
 
 
-def check_places(stiffness: sparse.csc_array, points: np.ndarray, rows: np.ndarray, turn: np.ndarray) -> None:
-    """Raise ValueError if a rotation leaves forces where a translation leaves none: nodes are elsewhere.
-
-    `turn` (3, 3) leads from the axes of the file to those of `points`.
-    """
+def check_places(stiffness: sparse.csc_array, points: np.ndarray, rows: np.ndarray) -> None:
+    """Raise ValueError if a rotation leaves forces where a translation leaves none: nodes are elsewhere."""
     pairs = _pairs(stiffness)
     free = ~_held(stiffness, pairs)
-    bad = free & (_turned(stiffness, pairs, points) > _TURNED)
-    if not bad.any():
-        return
-    cause = (
-        _other_axes(stiffness, pairs, points, free, turn)
-        or _misplaced(stiffness, pairs, points, free, bad, rows)
-        or "must have the order of the matrices: has the solver renumbered the nodes?"
-    )
-    raise ValueError(
-        f"{cause} (a rotation of the rigid blade leaves forces in stiffness_rest at {_named(rows[bad])}, of "
-        f"{np.count_nonzero(free)} that touch no clamped node)"
-    )
-
-
-def _other_axes(stiffness, pairs, points, free, turn) -> str | None:
-    """Say which axes of the file the nodes would have to have, if other ones leave no force."""
-    for order, signs in product(permutations(range(3)), product((1, -1), repeat=2)):
-        axes = np.diag([1, *signs])[:, order]  # an inversion of all three changes no rotation
-        moved = points @ (turn @ axes @ turn.T).T
-        if not (free & (_turned(stiffness, pairs, moved) > _TURNED)).any():
-            names = [f"{'-' if row.min() < 0 else ''}{'xyz'[np.argmax(abs(row))]}" for row in axes]
-            return f"x, y, z are {', '.join(names)} of the matrices"
-    return None
+    bad = np.flatnonzero(free & _turned(stiffness, pairs, points))
+    if bad.size:
+        cause = (
+            _misplaced(stiffness, pairs, points, free, bad, rows)
+            or "must have the order of the matrices: has the solver renumbered the nodes, are axes exchanged?"
+        )
+        raise ValueError(
+            f"{cause} (a rotation of the rigid blade leaves forces in stiffness_rest at {_named(rows[bad])}, "
+            f"of {np.count_nonzero(free)} that touch no clamped node)"
+        )
 
 
 def _misplaced(stiffness, pairs, points, free, bad, rows) -> str | None:
-    """Name the rows that the rigid motion of all others puts elsewhere."""
-    inner = np.flatnonzero(bad)
-    if inner.size > min(_MOST_BAD * np.count_nonzero(free), _MOST_SOLVED):
+    """Name the rows of the nodes `bad` that the rigid motion of all others puts elsewhere."""
+    if bad.size > min(_MOST_BAD * np.count_nonzero(free), _MOST_SOLVED):
         return None
-    coordinates = (3 * inner[:, None] + np.arange(3)).ravel()
+    coordinates = (3 * bad[:, None] + np.arange(3)).ravel()
     motion = _rotations(points)
     motion[coordinates] = 0
     block = sparse.csc_array(stiffness[coordinates][:, coordinates])
     x_turn, y_turn, z_turn = -spsolve(block, (stiffness @ motion)[coordinates]).T.reshape(3, -1, 3)
-    middle = points.mean(axis=0)
     moved = points.copy()
-    place = middle + np.stack([-y_turn[:, 2], -z_turn[:, 0], -x_turn[:, 1]], axis=1)
-    moved[inner] = place
-    if (free & (_turned(stiffness, pairs, moved) > _TURNED)).any():
+    moved[bad] = points.mean(axis=0) + np.stack([-y_turn[:, 2], -z_turn[:, 0], -x_turn[:, 1]], axis=1)
+    if (free & _turned(stiffness, pairs, moved)).any():
         return None
-    tolerance = _APART * _reach(pairs, points)[inner]
-    wrong = np.linalg.norm(place - points[inner], axis=1) > tolerance
-    to_listed = cKDTree(points[inner[wrong]]).query(place[wrong])[0]
-    cure = "exchanged" if wrong.sum() == 2 else "in another order"
+    tolerance = _APART * _reach(pairs, points)
+    wrong = bad[np.linalg.norm(moved[bad] - points[bad], axis=1) > tolerance[bad]]
+    to_listed = cKDTree(points[wrong]).query(moved[wrong])[0]
+    cure = "exchanged" if wrong.size == 2 else "in another order"
     if (to_listed > tolerance[wrong]).any():
         cure = "in another place"
-    return f"{_listed(rows[inner[wrong]])}: must be {cure}"
+    return f"{_listed(rows[wrong])}: must be {cure}"
 
 
 def _pairs(matrix: sparse.csc_array) -> sparse.csr_array:
@@ -194,10 +174,9 @@ def _held(stiffness: sparse.csc_array, pairs: sparse.csr_array) -> np.ndarray:
 
 
 def _turned(stiffness: sparse.csc_array, pairs: sparse.csr_array, points: np.ndarray) -> np.ndarray:
-    """Find the forces (n,) after a rotation, over what they would be if nothing cancelled."""
-    scale = (pairs * _lengths(pairs, points)).sum(axis=1)
-    forces = _forces(stiffness, _rotations(points))
-    return np.divide(forces, scale, out=np.zeros_like(forces), where=scale > 0)  # 0: joined to no other
+    """Whether a rotation leaves forces at each node (n,)."""
+    unbalanced = (pairs * _lengths(pairs, points)).sum(axis=1)  # the forces if nothing cancelled
+    return (unbalanced > 0) & (_forces(stiffness, _rotations(points)) > _TURNED * unbalanced)
 
 
 def _unequal(mass: sparse.csc_array) -> np.ndarray:
