@@ -1,7 +1,6 @@
 """The content of a mesh file: nodes, one kind of quadratic element, node sets."""
 
 import io
-import itertools
 import logging
 import os
 import re
@@ -88,7 +87,9 @@ def _check_start(path: Path) -> None:
     first = next((line for line in lines if line and not line.startswith(("**", "$ ", "<?xml"))), "")
     for start, suffix in _STARTS.items():
         if first.upper().startswith(start) and suffix != path.suffix.lower():
-            cure = origin.conversion(path, suffix)
+            cure = f"rename it to {path.stem}{suffix}"
+            if suffix not in origin.MESH_SUFFIXES:
+                cure += f"; {origin.CONVERSION}"
             raise ValueError(f"begins with {first[: len(start)]}, as a {suffix} file does: {cure}")
 
 
@@ -118,7 +119,8 @@ def _of_meshio(mesh: meshio.Mesh) -> Content:
     cells = {kind: np.concatenate(blocks) for kind, blocks in solids.items()}
     for kind, nodes in cells.items():  # Gmsh has an element again for each of its physical groups
         cells[kind] = nodes[np.sort(np.unique(nodes, axis=0, return_index=True)[1])]
-    return Content(mesh.points, cells, _node_sets(mesh), _volume_sets(mesh))
+    volume_sets = [name for name, (_, dimension) in mesh.field_data.items() if dimension == 3]
+    return Content(mesh.points, cells, _node_sets(mesh), volume_sets)
 
 
 def _volume(content: Content) -> np.ndarray:
@@ -141,51 +143,35 @@ def _volume(content: Content) -> np.ndarray:
     return cells
 
 
-def _volume_sets(mesh: meshio.Mesh) -> list[str]:
-    groups = [name for name, (_, dimension) in mesh.field_data.items() if dimension == 3]
-    for name, members in mesh.cell_sets.items():
-        blocks = zip(mesh.cells, members, strict=False)
-        if any(block.dim == 3 and rows is not None and len(rows) for block, rows in blocks):
-            groups.append(name)
-    return groups
-
-
 def _node_sets(mesh: meshio.Mesh) -> dict[str, np.ndarray]:
-    sets = {name: [np.asarray(nodes, dtype=int)] for name, nodes in mesh.point_sets.items()}
-    for name, values in mesh.point_data.items():
-        if values.ndim == 1 and (values.dtype.kind in "iub" or np.isin(values, (0, 1)).all()):
-            sets.setdefault(name, []).append(np.flatnonzero(values))
+    sets = {
+        name: [np.flatnonzero(values)]
+        for name, values in mesh.point_data.items()
+        if values.ndim == 1 and (values.dtype.kind in "iub" or np.isin(values, (0, 1)).all())
+    }
     for name, (tag, dimension) in mesh.field_data.items():  # Gmsh counts tags anew in each dimension
-        for block, physical in zip(mesh.cells, mesh.cell_data.get("gmsh:physical", []), strict=False):
-            if block.dim == dimension < 3:
-                sets.setdefault(name, []).append(np.ravel(block.data[physical == tag]))
-    for name, members in mesh.cell_sets.items():
+        groups = mesh.cell_data.get("gmsh:physical", [])  # the first of each element; cell_sets has all
+        members = mesh.cell_sets.get(name) or [tags == tag for tags in groups]
         for block, rows in zip(mesh.cells, members, strict=False):
-            if block.dim < 3 and rows is not None and not name.startswith("gmsh:"):
-                sets.setdefault(name, []).append(np.ravel(block.data[np.asarray(rows, dtype=int)]))
+            if block.dim == dimension < 3:
+                sets.setdefault(name, []).append(np.ravel(block.data[rows]))
     merged = {name: np.unique(np.concatenate(nodes)) for name, nodes in sets.items()}
-    return {name: nodes for name, nodes in merged.items() if nodes.size or name in mesh.point_sets}
+    return {name: nodes for name, nodes in merged.items() if nodes.size}
 
 
 def _read_gmsh(path: str) -> meshio.Mesh:
     """Read a mesh whose physical groups have each a name of its own, as meshio looks them up by it."""
-    with Path(path).open("rb") as stream:
-        start = stream.read(_LOOKED_THROUGH).decode(errors="replace").strip()
-        stream.seek(0)
-        lines = (line.decode(errors="replace").strip() for line in stream)
-        head = itertools.takewhile(lambda line: line not in ("$EndPhysicalNames", "$Nodes"), lines)
-        names = re.findall(r'^\d+ +\d+ +"(.*)"$', "\n".join(head), re.MULTILINE)
-    if not start.startswith(("$MeshFormat", "$Comments")):
-        raise ValueError(f"begins with {start.splitlines()[0][:40]!r}; must begin with $MeshFormat")
-    twice = [name for name, count in Counter(names).items() if count > 1]
-    if twice:
+    head = Path(path).read_bytes().partition(b"$Nodes")[0].decode(errors="replace")
+    names = Counter(re.findall(r'^\s*\d+\s+\d+\s+"(.*)"', head, re.MULTILINE))
+    if twice := [name for name, count in names.items() if count > 1]:
         raise ValueError(f"has several physical groups {twice[0]}; each must have a name of its own")
     try:
         return meshio.gmsh.read(path)
     except meshio.ReadError as error:
         if str(error):
             raise
-        raise ValueError("damaged, or binary of another machine: save it as text, Mesh.Binary = 0") from error
+        reason = "no mesh of Gmsh, damaged, or binary of another machine: save it as text, Mesh.Binary = 0"
+        raise ValueError(reason) from error
     except ValueError as error:
         if "gmsh:physical" not in str(error):
             raise

@@ -11,7 +11,6 @@ from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput, is_refused
 from bladerub.io.folders import study_folder
-from bladerub.io.optional import package
 
 MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
 """N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
@@ -19,7 +18,7 @@ MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254
 As the two are equal, frequencies do not show when the wrong system is named.
 """
 MESH_SUFFIXES = (".inp", ".msh", ".vtu")
-_BY_GMSH = {".unv": "-save", **dict.fromkeys((".stp", ".step", ".igs", ".iges", ".brep"), "-3 -order 2")}
+CONVERSION = "meshio convert makes .vtu of other meshes, gmsh -3 -order 2 a .msh of a solid (.step, .iges)"
 TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other files are meshes
 _OF_FRAME = tuple(entry.name for entry in fields(Frame))
 _OF_MESHES, _OF_TABLES = ("root_set", "tip_set"), ("angle_unit",)
@@ -62,24 +61,12 @@ def check(source: Source) -> None:
             raise ValueError(f"{key} = {keys[key]}: goes with a {kind}, not with {path(source).name}")
 
 
-def conversion(path: Path, suffix: str) -> str:
-    """Say how a file that ends in `suffix`, or should, becomes a mesh that is read."""
-    if suffix in _BY_GMSH:
-        return f"gmsh {path.name} {_BY_GMSH[suffix]} -o {path.stem}.msh"
-    name = f"{path.stem}{suffix}"
-    rename = "" if path.suffix.lower() == suffix else f"rename it to {name}"
-    convert = "" if suffix in MESH_SUFFIXES else f"meshio convert {name} {path.stem}.vtu converts it"
-    return ", then ".join(filter(None, (rename, convert)))
-
-
 def check_file(path: Path) -> None:
     """Check the name of a mesh or table, and that it is there; a ValueError says what is wrong."""
     if path.suffix.lower() not in (*MESH_SUFFIXES, *TABLE_SUFFIXES):
-        suffix, convertible = path.suffix.lower(), package("meshio", "mesh").extension_to_filetypes
-        cure = f": {conversion(path, suffix)}" if suffix in {*convertible, *_BY_GMSH} else ""
         raise ValueError(
             f"must be a mesh file that ends in {', '.join(MESH_SUFFIXES)}, or a table of sections in "
-            f"{', '.join(TABLE_SUFFIXES)}{cure}"
+            f"{', '.join(TABLE_SUFFIXES)}; {CONVERSION}"
         )
     if not path.is_file():
         raise ValueError("there is no such file")

@@ -93,7 +93,7 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
         raise ValueError(
             f"line {section.lines[index + 1]}: this station of section {section.name} is no further along "
             f"the chord than that of line {section.lines[index]}; they must go from the leading to the "
-            f"trailing edge{_cause(section, middle, index)}"
+            "trailing edge, each section once, under a name of its own"
         )
     if downstream_x * chord[0] < -1e-3 * length:
         raise ValueError(
@@ -110,17 +110,6 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
             "they may meet at its first and last station only"
         )
     return sign < 0
-
-
-def _cause(section: Section, middle: np.ndarray, index: int) -> str:
-    """Say why station `index + 1` may lie before `index` on the camber line `middle` (n, 2), or nothing."""
-    if np.allclose(section.points[:, index + 1], section.points[:, 0]):
-        return ": it is the first station again, so the section stands twice or two sections have one name"
-    for station in (index, index + 1):
-        others = np.delete(middle, station, axis=0)
-        if (np.diff(others, axis=0) @ (others[-1] - others[0]) > 0).all():
-            return f": without line {section.lines[station]} all do, so check its numbers"
-    return ""
 
 
 class _Curve:

@@ -54,11 +54,7 @@ def _read(table: cells.Cells, units: Mapping[str, str]) -> list[Curve]:
     parts = [_HEADER.fullmatch(name).groups() for name in table.names]
     table = table._replace(names=[name.lower() for name, _ in parts])
     header = dict(zip(table.names, (unit for _, unit in parts), strict=True))
-    if missing := [name for name in ("strain", "stress") if name not in header]:
-        raise ValueError(
-            f"has no column {', '.join(missing)}; line {table.header} must name strain, stress and, for "
-            f"several rates, rate, separated as the cells below ({table.separator} here)"
-        )
+    table.require("strain", "stress")
     columns = [name for name in UNITS if name in header]
     values = pd.DataFrame({name: _values(table, name, header[name], units) for name in columns})
     if len(values) < FEWEST_ROWS:

@@ -97,7 +97,7 @@ def raised(table, section, z):
     ("change", "said"),
     [
         (lambda t: t[::-1], "section s8 .line 2.: its first station lies downstream of its last"),
-        (lambda t: t.assign(**t[["x1", "x2"]].sub(0.02 * (t.index == 30), axis=0)), "without line 32"),
+        (lambda t: t.assign(**t[["x1", "x2"]].sub(0.02 * (t.index == 30), axis=0)), "line 32: this st"),
         (lambda t: t.assign(x2=t.x1, y2=t.y1, z2=t.z1), "the sides of section s0 touch or cross here"),
         (lambda t: raised(t, "s4", 1.5 * t.x1), "sections s3 and s4 cross: s4 is not the farther from"),
     ],
