@@ -2,16 +2,13 @@
 
 import os
 from collections.abc import Iterator
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from bladerub.blade import geometry
 from bladerub.blade.model import n_interface
 from bladerub.extras.blades import deck, origin
-from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.settings import Source
 from bladerub.io.checksum import file_checksum
-from bladerub.io.errors import format_value
 from bladerub.io.folders import study_folder
 from bladerub.settings.blade import Blade
 from bladerub.settings.study import Config
@@ -24,18 +21,7 @@ if TYPE_CHECKING:  # import the solver, which a plan does without
 def problems(config: Config) -> Iterator[str]:
     """Yield a line for each thing in `config` that cannot be; raises ValueError as `geometry.check_size`."""
     source = config.blade.source
-    try:
-        origin.check(source)
-    except ValueError as error:
-        yield f"blade.source.{error}"
-        return
-    setting, path = f"blade.source.file = {format_value(source.file)}", origin.path(source)
-    if not path.is_file():
-        yield f"{setting}: there is no such file ({path})"
-    try:
-        files(source)
-    except ValueError as error:
-        yield f"{setting}: {error}"
+    yield from origin.problems(source, files)
     if origin.is_table(source):
         geometry.check_size(config.blade.mesh)
         geometry.check_interface(config.blade.mesh, n_interface(config))
@@ -45,10 +31,9 @@ def recipe(blade: Blade) -> dict[str, Any]:
     """Reduce the block ``blade`` to what determines the blade, with the content of its file."""
     source, values = blade.source, blade.plain()
     parts = ("material", "length", *(("mesh",) if origin.is_table(source) else ()))
-    settings = asdict(Frame()) | values["source"]  # what a config leaves out is not another blade
     main, *included = [file_checksum(study_folder() / path) for path in files(source)]
     content = [main, *included] if included else main
-    return {name: values[name] for name in parts} | {"source": settings | {"file": content}}
+    return {name: values[name] for name in parts} | {"source": origin.settings(source) | {"file": content}}
 
 
 def files(source: Source) -> list[str]:

@@ -2,14 +2,11 @@
 
 import os
 from collections.abc import Iterator
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from bladerub.extras.blades import origin
-from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.settings import Source
 from bladerub.io.checksum import file_checksum
-from bladerub.io.errors import format_value
 from bladerub.settings.blade import Blade
 from bladerub.settings.study import Config
 
@@ -19,16 +16,7 @@ if TYPE_CHECKING:  # imports the solver, which a plan does without
 
 def problems(config: Config) -> Iterator[str]:
     """Yield a line for each thing in `config` that cannot be."""
-    source = config.blade.source
-    try:
-        origin.check(source)
-    except ValueError as error:
-        yield f"blade.source.{error}"
-        return
-    try:
-        files(source)
-    except ValueError as error:
-        yield f"blade.source.matrices = {format_value(source.matrices)}: {error} ({origin.path(source)})"
+    yield from origin.problems(config.blade.source, files)
     if (count := config.reduction.fit_speeds) not in (None, 3):
         yield f"reduction.fit_speeds = {count}: must be 3 with blade.source.matrices"
 
@@ -39,8 +27,7 @@ def recipe(blade: Blade) -> dict[str, Any]:
 
     paths = matrix_folder.files(origin.path(blade.source))
     content = {name: file_checksum(path) for name, path in paths.items()}
-    settings = asdict(Frame()) | blade.source.plain()  # what a config leaves out is not another blade
-    return {"length": blade.length, "source": settings | {"matrices": content}}
+    return {"length": blade.length, "source": origin.settings(blade.source) | {"matrices": content}}
 
 
 def files(source: Source) -> list[str]:

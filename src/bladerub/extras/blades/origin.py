@@ -1,15 +1,15 @@
 """Where a blade comes from: the ``blade.source`` block of the config, and faults of its files."""
 
 import errno
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import fields
+from dataclasses import asdict
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.settings import Source
-from bladerub.io.errors import BadInput, is_refused
+from bladerub.io.errors import BadInput, format_value, is_refused
 from bladerub.io.folders import study_folder
 
 MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
@@ -20,7 +20,7 @@ As the two are equal, frequencies do not show when the wrong system is named.
 MESH_SUFFIXES = (".inp", ".msh", ".vtu")
 CONVERSION = "meshio convert makes .vtu of other meshes, gmsh -3 -order 2 a .msh of a solid (.step, .iges)"
 TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other files are meshes
-_OF_FRAME = tuple(entry.name for entry in fields(Frame))
+_OF_FRAME = tuple(asdict(Frame()))
 _OF_MESHES, _OF_TABLES = ("root_set", "tip_set"), ("angle_unit",)
 _KEYS = {"matrices": ("matrix_units", "omega_max"), "file": (*_OF_MESHES, *_OF_TABLES)}
 """Keys that go with a place, beside ``tip_cone`` and those of the frame."""
@@ -59,6 +59,27 @@ def check(source: Source) -> None:
     for key in others:
         if key in keys:
             raise ValueError(f"{key} = {keys[key]}: goes with a {kind}, not with {path(source).name}")
+
+
+def problems(source: Source, files: Callable[[Source], list[str]]) -> Iterator[str]:
+    """Yield what is wrong with the keys of a source, or with its `files`."""
+    try:
+        check(source)
+    except ValueError as error:
+        yield f"blade.source.{error}"
+        return
+    try:
+        if not path(source).exists():
+            raise ValueError("there is no such file or folder")
+        files(source)
+    except ValueError as error:
+        key = "matrices" if source.matrices else "file"
+        yield f"blade.source.{key} = {format_value(getattr(source, key))}: {error} ({path(source)})"
+
+
+def settings(source: Source) -> dict[str, Any]:
+    """Return the block of a source with what it may leave out: that makes no other blade."""
+    return asdict(Frame()) | source.plain()
 
 
 def check_file(path: Path) -> None:
