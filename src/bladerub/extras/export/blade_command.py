@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from bladerub.settings.study import Config
 
 COORDINATES = ("cartesian", "cylindrical")
-
-
 FORMS = (
     ("--calculix", "DIR", "a folder for CalculiX decks, one for each speed"),
     ("--mesh", "FILE", "mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements"),
@@ -25,8 +23,8 @@ FORMS = (
 """What can be written of the blade: option, name of its value and help."""
 
 
-def write(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
-    """Write what the command line asks for of the blade; return the files and the size of the blade."""
+def write(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any], str]:
+    """Write what the command line asks for of the blade; return what was written, also in words."""
     if options.fe_matrices:
         return _write_fe_matrices(options, config)
 
@@ -56,10 +54,10 @@ def write(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
             body = (mesh["points"], mesh["cells"], mesh["root_nodes"], config.blade.material)
             speeds = _speeds(options, blade.f_omega_max, blade.f1_hz)
             files = calculix.write_decks(options.calculix, speeds, blade.f1_hz, *body)
-    return _figures(files, mesh["points"], mesh["cells"], len(blade.mass))
+    return _about(files, mesh["points"], mesh["cells"], len(blade.mass))
 
 
-def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
+def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any], str]:
     """Compute the finite element matrices of the blade of the config again, and write them."""
     folder = options.fe_matrices
     if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
@@ -83,16 +81,14 @@ def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> dict[st
     blade = by_finite_elements(meshed, config.blade.material, [*fit_speeds(f_max), *speeds], [], modes)
     files = write_fe_matrices(folder, blade, f_max, f".{options.matrix_format or 'mtx'}")
     mesh = blade.layout.mesh.mesh
-    return _figures(files, mesh.points, mesh.cells, blade.free.free.size)
+    return _about(files, mesh.points, mesh.cells, blade.free.free.size)
 
 
-def _figures(files: Any, points: Any, cells: Any, coordinates: int) -> dict[str, Any]:
-    return {
-        "files": [str(file) for file in files],
-        "nodes": len(points),
-        "elements": len(cells),
-        "coordinates": coordinates,
-    }
+def _about(files: list[Path], points: Any, cells: Any, coordinates: int) -> tuple[dict[str, Any], str]:
+    size = {"nodes": len(points), "elements": len(cells), "coordinates": coordinates}
+    text = f"blade of {len(cells)} elements, {len(points)} nodes, matrices of {coordinates} coordinates"
+    figures = {"files": [str(file) for file in files]} | size
+    return figures, "\n".join([text, *(f"wrote {file}" for file in files)])
 
 
 def _fields(path: Path) -> dict[str, Any]:
@@ -122,15 +118,8 @@ def _speeds(options: argparse.Namespace, highest: float, f1_hz: float) -> list[f
     return list(dict.fromkeys(speeds))
 
 
-def in_words(figures: dict[str, Any]) -> str:
-    """Report what was written."""
-    size = f"{figures['elements']} elements, {figures['nodes']} nodes"
-    about = f"blade of {size}, matrices of {figures['coordinates']} coordinates"
-    return "\n".join([about, *(f"wrote {file}" for file in figures["files"])])
-
-
-def write_sections(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
-    """Write the table that the command line asks for; return its size."""
+def write_sections(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any], str]:
+    """Write the table that the command line asks for; return its size, also in words."""
     from bladerub.extras.blades.origin import TABLE_SUFFIXES
 
     path = options.sections
@@ -145,16 +134,9 @@ def write_sections(options: argparse.Namespace, config: "Config") -> dict[str, A
     from bladerub.blade.geometry import BladeShape
     from bladerub.extras.export import sections
 
-    coordinates = options.coordinates or COORDINATES[0]
+    shape, coordinates = BladeShape.from_config(config.blade), options.coordinates or COORDINATES[0]
     with refused(OSError), refused(ValueError, because=f"--coordinates {coordinates}: "):
-        n_sections, n_stations = sections.write_sections(
-            path, BladeShape.from_config(config.blade), coordinates
-        )
-    return {"files": [str(path)], "coordinates": coordinates, "sections": n_sections, "stations": n_stations}
-
-
-def sections_in_words(figures: dict[str, Any]) -> str:
-    """Report what was written."""
-    (file,) = figures["files"]
-    size = f"{figures['sections']} sections, {figures['stations']} stations in all"
-    return f"{size}, in m and rad, {figures['coordinates']} coordinates\nwrote {file}"
+        n_sections, n_stations = sections.write_sections(path, shape, coordinates)
+    figures = {"files": [str(path)], "coordinates": coordinates}
+    text = f"{n_sections} sections, {n_stations} stations in all, in m and rad, {coordinates} coordinates"
+    return figures | {"sections": n_sections, "stations": n_stations}, f"{text}\nwrote {path}"

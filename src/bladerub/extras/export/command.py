@@ -82,17 +82,18 @@ def export(options: argparse.Namespace) -> None:
         if getattr(options, form) and not options.run:
             raise BadInput(f"--{form}: needs --run, the run whose motion is written")
     if options.animation:
-        inputs.show(options, _animation(options, config), _animation_in_words)
+        figures, text = _animation(options, config)
     elif options.vtu:
-        inputs.show(options, _motion(options, config), _in_words)
+        figures, text = _motion(options, config)
     elif options.sections:
-        inputs.show(options, blade_command.write_sections(options, config), blade_command.sections_in_words)
+        figures, text = blade_command.write_sections(options, config)
     else:
-        inputs.show(options, blade_command.write(options, config), blade_command.in_words)
+        figures, text = blade_command.write(options, config)
+    inputs.show(options, figures, lambda _: text)
 
 
-def _motion(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
-    """Write the motion of a run; return what was written."""
+def _motion(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any], str]:
+    """Write the motion of a run; return what was written, also in words."""
     run, plan, blade, config = _run_of_file(options, config, "vtu")
 
     from bladerub.extras.export.vtu import COLLECTION, read_mesh, write_motion
@@ -107,22 +108,40 @@ def _motion(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     about = {name: run.attributes[name] for name in names} | provenance(config.plain())
     with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
         largest = write_motion(options.vtu, mesh, recording, about, stress, plan.row)
-    blades, revolutions = recording.revolution_peak.shape
-    return {
+    blades, revolution = recording.revolution_peak.shape
+    nodes, elements = blades * len(mesh["points"]), blades * len(mesh["cells"])
+    size = sum(file.stat().st_size for file in options.vtu.iterdir())
+    displacement = largest["largest_displacement"]
+    figures = {
         "collection": str(options.vtu / COLLECTION),
         "samples": options.samples,
-        "revolution": revolutions,
+        "revolution": revolution,
         "blades": blades,
-        "nodes": blades * len(mesh["points"]),
-        "elements": blades * len(mesh["cells"]),
+        "nodes": nodes,
+        "elements": elements,
         **largest,
-        "displacement_over_length": largest["largest_displacement"] / blade.reduced.length,
-        "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
+        "displacement_over_length": displacement / blade.reduced.length,
+        "bytes": size,
     }
+    stresses = "stress not known: a blade of matrices has no elements"
+    if stress:
+        place = ", ".join(f"{1e3 * x:.1f}" for x in largest["largest_von_mises_at"])
+        stresses = (
+            f"largest von Mises stress {largest['largest_von_mises'] / 1e6:.4g} MPa at ({place}) mm after "
+            f"{largest['largest_von_mises_time']:.3f} revolutions, "
+            f"largest principal stress {largest['largest_principal'] / 1e6:.4g} MPa"
+        )
+    return figures, (
+        f"{options.samples} instants of revolution {revolution}, {nodes} nodes, {elements} elements"
+        f"{f' of {blades} blades' if blades > 1 else ''}, {size / 1e6:.3g} MB\n"
+        f"largest displacement {displacement * 1e3:.4g} mm"
+        f"{inputs.large_in_words(figures['displacement_over_length'])}\n"
+        f"{stresses}\nopen {figures['collection']} in ParaView"
+    )
 
 
-def _animation(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
-    """Write the animation of a run; return what was written."""
+def _animation(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any], str]:
+    """Write the animation of a run; return what was written, also in words."""
     path = options.animation
     if path.suffix.lower() != ".gif":
         raise BadInput(f"--animation {path}: must end in .gif")
@@ -135,7 +154,7 @@ def _animation(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
     with refused(OSError, because=f"--animation {path}: cannot be written: "):
         animate(path, recording, blade.reduced, plan.row or Row.even(1), run.attributes)
     blades, revolutions = recording.revolution_peak.shape
-    return {
+    figures = {
         "animation": str(path),
         "samples": options.samples,
         "revolutions": revolutions,
@@ -143,6 +162,10 @@ def _animation(options: argparse.Namespace, config: "Config") -> dict[str, Any]:
         "greatest_wear": float(recording.wear.max()),
         "bytes": path.stat().st_size,
     }
+    return figures, (
+        f"{options.samples} instants of {revolutions} revolutions, {blades} blades, greatest wear "
+        f"{1e3 * figures['greatest_wear']:.4g} mm: {path}, {figures['bytes'] / 1e6:.3g} MB"
+    )
 
 
 def _run_of_file(
@@ -210,32 +233,3 @@ def _record(
             "another kind of machine or with other packages; compute it here with bladerub run --output"
         )
     return recording
-
-
-def _in_words(figures: dict[str, Any]) -> str:
-    stress = "stress not known: a blade of matrices has no elements"
-    if "largest_von_mises" in figures:
-        place = ", ".join(f"{1e3 * x:.1f}" for x in figures["largest_von_mises_at"])
-        stress = (
-            f"largest von Mises stress {figures['largest_von_mises'] / 1e6:.4g} MPa at ({place}) mm "
-            f"after {figures['largest_von_mises_time']:.3f} revolutions, "
-            f"largest principal stress {figures['largest_principal'] / 1e6:.4g} MPa"
-        )
-    several = f" of {figures['blades']} blades" if figures["blades"] > 1 else ""
-    large = inputs.large_in_words(figures["displacement_over_length"])
-    lines = [
-        f"{figures['samples']} instants of revolution {figures['revolution']}, {figures['nodes']} nodes, "
-        f"{figures['elements']} elements{several}, {figures['bytes'] / 1e6:.3g} MB",
-        f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm{large}",
-        stress,
-        f"open {figures['collection']} in ParaView",
-    ]
-    return "\n".join(lines)
-
-
-def _animation_in_words(figures: dict[str, Any]) -> str:
-    return (
-        f"{figures['samples']} instants of {figures['revolutions']} revolutions, {figures['blades']} blades, "
-        f"greatest wear {1e3 * figures['greatest_wear']:.4g} mm: {figures['animation']}, "
-        f"{figures['bytes'] / 1e6:.3g} MB"
-    )
