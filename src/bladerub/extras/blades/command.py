@@ -5,6 +5,7 @@ import os
 import sys
 from dataclasses import asdict
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import yaml
@@ -171,93 +172,80 @@ def _read_matrices(config: "Config", nominal: float | None) -> "tuple[dict[str, 
     return matrix_report(config.blade.source, imported, built, nominal), built.reduced
 
 
-def _of_mesh(figures: dict[str, Any]) -> dict[str, str]:
+def _of_mesh(blade: SimpleNamespace) -> dict[str, str]:
     """Describe what a mesh or sections alone have, by name."""
     rows = {
-        "root and tip": f"{figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up to "
-        f"{1e3 * figures['interface_offset']:.3g} mm from their even places on the camber line",
-        "volume and mass": f"{1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
-        "material": _of_material(figures["material"]),
-        "worst Jacobian": f"{figures['worst_jacobian']:.3g} (smallest over largest in an element)",
+        "root and tip": f"{blade.root_nodes} and {blade.tip_nodes} nodes; interface nodes up to "
+        f"{1e3 * blade.interface_offset:.3g} mm from their even places on the camber line",
+        "volume and mass": f"{1e6 * blade.volume:.4g} cm³, {blade.mass:.4g} kg",
+        "material": _of_material(blade.material),
+        "worst Jacobian": f"{blade.worst_jacobian:.3g} (smallest over largest in an element)",
     }
-    if "sections" in figures:
-        hub, *_, tip = figures["sections"]
+    if hasattr(blade, "sections"):
+        hub, *_, tip = blade.sections
         chords, thicknesses = (
             f"{1e3 * hub[name]:.4g} to {1e3 * tip[name]:.4g} mm" for name in ("chord", "thickness")
         )
-        rows["sections"] = (
-            f"{len(figures['sections'])}, {hub['name']} to {tip['name']}: chord {chords}, largest thickness "
-            f"{thicknesses}"
-        )
+        names = f"{len(blade.sections)}, {hub['name']} to {tip['name']}"
+        rows["sections"] = f"{names}: chord {chords}, largest thickness {thicknesses}"
     return rows
 
 
-def _of_matrices(figures: dict[str, Any]) -> dict[str, str]:
+def _of_matrices(blade: SimpleNamespace) -> dict[str, str]:
     """Describe what matrices alone have, by name."""
-    places = [", ".join(f"{1e3 * x:.4g}" for x in figures["interface"][end]) for end in (0, -1)]
-    omission = (
-        "" if figures["mass_is_whole"] else " without that of the clamped nodes, whose rows are not there"
-    )
+    places = [", ".join(f"{1e3 * x:.4g}" for x in blade.interface[end]) for end in (0, -1)]
+    omission = "" if blade.mass_is_whole else " without that of the clamped nodes, whose rows are not there"
     return {
-        "clamped and tip": f"{figures['clamped_nodes']} and {figures['tip_nodes']} nodes",
+        "clamped and tip": f"{blade.clamped_nodes} and {blade.tip_nodes} nodes",
         "interface": "from ({}) to ({}) mm, leading to trailing edge".format(*places),
-        "mass": f"{figures['mass']:.4g} kg{omission}",
-        "speeds": f"f_omega = {', '.join(f'{speed:g}' for speed in figures['speeds'])}; the highest is "
-        f"{figures['omega_max']:.6g} rad/s",
+        "mass": f"{blade.mass:.4g} kg{omission}",
+        "speeds": f"f_omega = {', '.join(f'{speed:g}' for speed in blade.speeds)}; the highest is "
+        f"{blade.omega_max:.6g} rad/s",
     }
 
 
 def _in_words(figures: dict[str, Any]) -> str:
     from bladerub.blade.accuracy import percent
 
-    size = f"{figures['nodes']} nodes, {figures['unknowns']} unknowns"
-    length = f"{1e3 * figures['length']:.4g} mm"
+    blade = SimpleNamespace(**figures)
+    size, length = f"{blade.nodes} nodes, {blade.unknowns} unknowns", f"{1e3 * blade.length:.4g} mm"
     if "elements" in figures:
-        rows = {
-            "mesh": f"{figures['elements']} {figures['element']}, {size}, {figures['elements_root_to_tip']} "
-            "elements from root to tip"
-        }
-        length += f", chord at the tip {1e3 * figures['tip_chord']:.4g} mm, cone there"
-        particular = _of_mesh(figures)
-        moved = f", where rotation moves the blade by {1e3 * figures['centrifugal_displacement']:.3g} mm"
+        along = f"{blade.elements_root_to_tip} elements from root to tip"
+        rows = {"mesh": f"{blade.elements} {blade.element}, {size}, {along}"}
+        length += f", chord at the tip {1e3 * blade.tip_chord:.4g} mm, cone there"
+        particular = _of_mesh(blade)
+        moved = f", where rotation moves the blade by {1e3 * blade.centrifugal_displacement:.3g} mm"
     else:
         rows = {"matrices": size}
-        length += f"{'' if figures['length_is_measured'] else ' that its nodes reach over'}, cone at the tip"
-        particular, moved = _of_matrices(figures), ""
-    extents = figures["extents"].items()
-    rows |= {name: f"{1e3 * low:.4g} to {1e3 * high:.4g} mm" for name, (low, high) in extents}
-    rows |= {"length": f"{length} {round(figures['tip_cone_degrees'], 3) + 0.0:g} degrees"} | particular
-    law = (
-        "eq. (2) is exact at the speeds of the files"
-        if figures["error_eq2"] is None
-        else f"eq. (2) is up to {percent(max(figures['error_eq2'][:6]))} % off"
-    )
-    stagger, lean = figures["tip_stagger_degrees"], figures["tip_lean"]
-    crossings = ", ".join(
-        f"eo({crossing['order']}) {crossing['rpm']:.0f}" for crossing in figures["crossings"]
-    )
+        length += f"{'' if blade.length_is_measured else ' that its nodes reach over'}, cone at the tip"
+        particular, moved = _of_matrices(blade), ""
+    rows |= {name: f"{1e3 * low:.4g} to {1e3 * high:.4g} mm" for name, (low, high) in blade.extents.items()}
+    rows |= {"length": f"{length} {round(blade.tip_cone_degrees, 3) + 0.0:g} degrees"} | particular
+    law = "eq. (2) is exact at the speeds of the files"
+    if blade.error_eq2 is not None:
+        law = f"eq. (2) is up to {percent(max(blade.error_eq2[:6]))} % off"
+    stagger, lean = blade.tip_stagger_degrees, blade.tip_lean
+    crossings = ", ".join(f"eo({crossing['order']}) {crossing['rpm']:.0f}" for crossing in blade.crossings)
     crossings = f", 1/min: {crossings}" if crossings else ": none within reduction.f_omega_max"
     rows |= {
-        "first frequency": f"{figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
-        f"{figures['f_omega_max']:g}{moved}",
-        "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes {law}, with the "
-        f"reduction {percent(max(figures['error_reduced_model'][:6]))} %",
+        "first frequency": f"{blade.f1_hz:.6g} Hz, times {blade.campbell_ratio:.4g} at f_omega = "
+        f"{blade.f_omega_max:g}{moved}",
+        "reduced model": f"{blade.reduced_coordinates} coordinates; in six modes {law}, with the reduction "
+        f"{percent(max(blade.error_reduced_model[:6]))} %",
         "stagger at the tip": f"{abs(stagger):.4g} degrees, the leading edge "
         f"{'ahead' if stagger >= 0 else 'behind'} in rotation",
         "first mode": f"u_r/u_t at the tip {lean[0]:.3f} at the leading edge, {lean[-1]:.3f} at the trailing "
         "edge",
         "crossings": f"of mode 1{crossings}",
-        "tip stiffness": f"{figures['tip_stiffness']:.4g} N/m, static",
+        "tip stiffness": f"{blade.tip_stiffness:.4g} N/m, static",
     }
-    if figures["nominal_speed"]:
-        rows["nominal speed"] = (
-            f"{figures['nominal_speed']:g} 1/min, f_omega = {figures['nominal_f_omega']:.4g}"
-        )
+    if blade.nominal_speed:
+        rows["nominal speed"] = f"{blade.nominal_speed:g} 1/min, f_omega = {blade.nominal_f_omega:.4g}"
     return "\n".join(
         [
-            *inputs.aligned([*rows.items(), *(("warning", line) for line in figures["warnings"])]),
+            *inputs.aligned([*rows.items(), *(("warning", line) for line in blade.warnings)]),
             "",
             "# for the config of its study; without contact.scale the values of the contact are absolute",
-            yaml.safe_dump(figures["config"], sort_keys=False).rstrip(),
+            yaml.safe_dump(blade.config, sort_keys=False).rstrip(),
         ]
     )

@@ -125,9 +125,7 @@ def _materials(path: Path) -> dict[str, tuple[list[str], list[str]]]:
         lines = [line.text for line in data]
         if keyword == "*MATERIAL":
             name = parameters.get("NAME", "").upper()
-            if name in materials:
-                raise ValueError(f"it has the material {name} twice")
-            materials[name] = ([], [])
+            materials.setdefault(name, ([], []))
         elif keyword == "*SOLID SECTION":
             used.append(parameters.get("MATERIAL", "").upper())
         elif keyword == "*ELASTIC" and name is not None:

@@ -1,7 +1,6 @@
 """From a mesh file or a table of sections to a blade that can be reduced."""
 
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 import numpy as np
 
@@ -77,7 +76,7 @@ def _nodes(content, points, faces, places, name: str | None, is_tip: bool) -> np
             return facing(points, faces, outwards=is_tip)
         nodes = np.flatnonzero(np.isin(places, _with_middles(content, _named(content, name))))
         if not nodes.size:
-            raise ValueError(f'no node of the set "{name}" is in an element')
+            raise ValueError(f'the set "{name}" has no node of an element')
     except ValueError as error:
         raise ValueError(f"{'tip' if is_tip else 'root'} not found: {error}") from error
     return nodes
@@ -86,17 +85,12 @@ def _nodes(content, points, faces, places, name: str | None, is_tip: bool) -> np
 def _named(content: mesh_file.MeshFile, name: str) -> np.ndarray:
     """Nodes of the set `name`, in capital or small letters unless another set differs in them only."""
     node_sets = content.node_sets
-    alike = [set_name for set_name in node_sets if set_name.lower() == name.lower()]
-    key = name if name in node_sets else alike[0] if len(alike) == 1 else None
-    if key is None and name in content.volume_sets:
+    alike = [name] if name in node_sets else [key for key in node_sets if key.lower() == name.lower()]
+    if len(alike) == 1:
+        return node_sets[alike[0]]
+    if name in content.volume_sets:
         raise ValueError(f'"{name}" is a set of volume elements; must be of nodes, points, lines or surfaces')
-    if key is None:
-        close = get_close_matches(name, node_sets, n=1)
-        hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(node_sets) or 'none'}"
-        raise ValueError(f'there is no node set "{name}"; {hint}')
-    if not node_sets[key].size:
-        raise ValueError(f'the node set "{name}" has no nodes; a set of other sets is not read')
-    return node_sets[key]
+    raise ValueError(f'there is no node set "{name}"; there are {", ".join(node_sets) or "none"}')
 
 
 def facing(points: np.ndarray, faces: np.ndarray, outwards: bool) -> np.ndarray:

@@ -107,7 +107,7 @@ def test_broken_meshes_are_refused_with_file_and_culprit(blade, write):
     collapsed[2, 1] = collapsed[2, 0]
     second = (np.vstack([points, points * [1, -1, -1]]), np.vstack([cells, cells + len(points)]))
     cases = [
-        ({"points": nan}, {}, f"node {corner + 1}: its coordinates are not finite"),
+        ({"points": nan}, {}, f"node {corner + 1}: is at nan, .* must be finite"),
         ({"cells": collapsed}, {}, "element 3: has a node twice"),
         ({"points": second[0], "cells": second[1]}, {}, "has 2 bodies that share no nodes"),
         ({"points": twin}, {}, "are in one place; merge them"),
