@@ -111,49 +111,45 @@ def material(path: Path, unit: str) -> Material | None:
     """
     if path.suffix.lower() != ".inp":
         return None
-    values = {name: _si(name, *constants, unit) for name, constants in _materials(path).items()}
+    values = {name: _si(name, constants, unit) for name, constants in _materials(path).items()}
     first = next(iter(values.values()), None)
     if any(value != first for value in values.values()):
         raise ValueError(f"it has the materials {', '.join(values)}, not one")
     return first
 
 
-def _materials(path: Path) -> dict[str, tuple[list[str], list[str]]]:
+def _materials(path: Path) -> dict[str, dict[str, list[str]]]:
     """Lines of *ELASTIC and of *DENSITY by the name of the material, of those that solid sections use."""
     materials, used, name = {}, [], None
     for keyword, parameters, _, data in blocks(path):
-        lines = [line.text for line in data]
         if keyword == "*MATERIAL":
             name = parameters.get("NAME", "").upper()
-            materials.setdefault(name, ([], []))
+            materials.setdefault(name, {"*ELASTIC": [], "*DENSITY": []})
         elif keyword == "*SOLID SECTION":
             used.append(parameters.get("MATERIAL", "").upper())
-        elif keyword == "*ELASTIC" and name is not None:
+        elif keyword in materials.get(name, ()):
             kind = parameters.get("TYPE", "ISO").upper()
             if not kind.startswith("ISO"):
-                raise ValueError(f"*ELASTIC of {name} is of type {kind}, not isotropic")
-            materials[name][0].extend(lines)
-        elif keyword == "*DENSITY" and name is not None:
-            materials[name][1].extend(lines)
+                raise ValueError(f"{keyword} of {name} is of type {kind}, not isotropic")
+            materials[name][keyword] += [line.text for line in data]
     if absent := [name for name in used if name not in materials] if materials else []:
         raise ValueError(f"a *SOLID SECTION has the material {absent[0]}, which is not there")
     return {name: materials[name] for name in used if materials} or materials
 
 
-def _si(name: str, elastic: list[str], density: list[str], unit: str) -> Material:
+def _si(name: str, constants: dict[str, list[str]], unit: str) -> Material:
     numbers = []
-    for keyword, lines, n in (("*ELASTIC", elastic, 2), ("*DENSITY", density, 1)):
-        if not lines:
+    for keyword, n in (("*ELASTIC", 2), ("*DENSITY", 1)):
+        text = " / ".join(constants[keyword])
+        if not text:
             raise ValueError(f"material {name} has no {keyword}")
-        if len(lines) > 1:
-            raise ValueError(f"{keyword} of {name} is a table of {len(lines)} lines, of temperature or else")
-        words = [word for word in re.split(r"[,\s]+", lines[0]) if word]
         try:
-            numbers += [number(word) for word in words[:n]]
-        except ValueError:
-            raise ValueError(f"{keyword} of {name} is {lines[0]}, not numbers") from None
-        if not n <= len(words) <= n + 1:  # a temperature may follow
-            raise ValueError(f"{keyword} of {name} is {lines[0]}, must be {n} numbers, a temperature aside")
+            values = [number(word) for word in re.split(r"[,\s]+", text) if word]
+        except ValueError:  # several lines, too
+            values = []
+        if not n <= len(values) <= n + 1:  # a temperature may follow
+            raise ValueError(f"{keyword} of {name} is {text}, must be {n} numbers, a temperature aside")
+        numbers += values[:n]
     length, force = UNITS[unit], FORCES.get(unit, 1.0)
     young, poisson, dense = numbers[0] * force / length**2, numbers[1], numbers[2] * force / length**4
     for text, value, (low, high) in (

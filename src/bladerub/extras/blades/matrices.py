@@ -77,30 +77,30 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
                 f"has {n_internal} free coordinates off the interface; must have more than {n_required}, the "
                 "modes that are wanted"
             )
-    with naming(names[MASS]):
-        mass_of_all = matrix_folder.read_matrix(names[MASS])
-        mass = _of_free(mass_of_all, free, unit, frame.turn)
-    stiffness = {}
-    for f_omega, name in at_speeds.items():
+
+    def read(name: str) -> tuple[sparse.csc_array, sparse.csc_array]:
         with naming(names[name]):
-            stiffness[f_omega] = _of_free(matrix_folder.read_matrix(names[name]), free, unit, frame.turn)
+            whole = matrix_folder.read_matrix(names[name])
+            return whole, _of_free(whole, free, unit, frame.turn)
+
+    mass_of_all, mass = read(MASS)
+    stiffness = {f_omega: read(name)[1] for f_omega, name in at_speeds.items()}
     stiffness_rest, stiffness_half, stiffness_max = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
 
     # the matrices are those of one body, which is held
     with naming(names[MASS], names[FIT[0]]):
         rigid_body.check_joined(mass, stiffness_rest)
+    numbers, points = free.free[::3] // 3, layout.mesh.mesh.points
+    rows, places = numbers + 1, points[numbers]
     with naming(names[MASS]):
         check_definite(mass)
+        rigid_body.check_mass(mass, rows)
     with naming(names[FIT[0]]):
         check_definite(stiffness_rest)
         frequency, modes = _modes(stiffness_rest, mass, n_modes)
         check_held(stiffness_rest, modes[:, 0])
 
     # mass and stiffness at rest have the order of the nodes
-    numbers, points = free.free[::3] // 3, layout.mesh.mesh.points
-    rows, places = numbers + 1, points[numbers]
-    with naming(names[MASS]):
-        rigid_body.check_mass(mass, rows)
     with naming(names["nodes"]):
         rigid_body.check_places(stiffness_rest, places, rows)
     with naming(names[FIT[0]]):
