@@ -61,9 +61,7 @@ def files(folder: Path) -> dict[str, Path]:
             raise ValueError(f"holds both {name}.mtx and {name}.npz")
         if not matches:
             ccx = [path.name for path in sorted(folder.iterdir()) if path.suffix in _SUFFIXES_OF_CALCULIX]
-            others = [path.name for path in sorted(folder.glob(f"{name}.*"))]
             hint = f"; {_CONVERTED} {', '.join(ccx)} of CalculiX" if ccx else ""
-            hint = hint or (f", but {', '.join(others)}" if others else "")
             raise ValueError(f"holds no {name}.mtx or {name}.npz{hint}")
         (paths[name],) = matches
     if not (folder / NODES).is_file():
@@ -94,12 +92,8 @@ def read_nodes(path: Path) -> Nodes:
     names = [name.lower() for name in table.names]
     lines = list(table.rows)
     points = np.stack([table.numbers(name) for name in _POSITION], axis=1)
-    outliers = np.flatnonzero((abs(points) > FARTHEST).any(axis=1))
-    if outliers.size:
-        largest = abs(points[outliers[0]]).max()
-        raise ValueError(
-            f"line {lines[outliers[0]]}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less"
-        )
+    if (outliers := (abs(points) > FARTHEST).any(axis=1)).any():
+        raise ValueError(f"line {lines[outliers.argmax()]}: a coordinate is beyond {FARTHEST:g}")
     number, clamped, tip = (_marks(table, name) if name in names else np.zeros(len(lines)) for name in _MARKS)
     n_nodes = max(int(number.max(initial=0)), FEWEST_NODES)
     for position in range(1, n_nodes + 1):
@@ -107,27 +101,23 @@ def read_nodes(path: Path) -> Nodes:
             counted = f"{count} nodes have" if count else "no node has"
             raise ValueError(f"{counted} interface = {position}; each of 1 to {n_nodes} must be there once")
     interface = np.argsort(number, kind="stable")[-n_nodes:]  # all others are 0
-    held = np.flatnonzero((number > 0) & (clamped > 0))
-    if held.size:
-        raise ValueError(f"line {lines[held[0]]}: an interface node must not be clamped")
+    if (held := (number > 0) & (clamped > 0)).any():
+        raise ValueError(f"line {lines[held.argmax()]}: an interface node must not be clamped")
     return Nodes(points, interface, np.flatnonzero(clamped), np.flatnonzero(tip))
 
 
 def _marks(table: Cells, name: str) -> np.ndarray:
     marks = table.numbers(name, empty=0.0)
-    odd = np.flatnonzero((marks != np.rint(marks)) | (marks < 0) | (marks > _MARKS[name]))
-    if odd.size:
-        raise ValueError(
-            f"line {list(table.rows)[odd[0]]}: {name} = {table.column(name)[odd[0]]}: must be a whole number "
-            f"from 0 to {_MARKS[name]}, or nothing"
-        )
+    for line, mark in zip(table.rows, marks, strict=True):
+        if mark not in range(_MARKS[name] + 1):
+            raise ValueError(
+                f"line {line}: {name} = {mark:g}: must be a whole number from 0 to {_MARKS[name]}, or nothing"
+            )
     return marks
 
 
 def read_matrix(path: Path) -> sparse.csc_array:
     """Read a real symmetric matrix of Matrix Market or of `scipy.sparse`, or raise ValueError."""
-    if path.stat().st_size == 0:
-        raise ValueError("is empty")
     is_text = path.suffix == ".mtx"
     try:
         rows, columns, size = _size_of_text(path) if is_text else _size_of_archive(path)
