@@ -22,9 +22,8 @@ log = logging.getLogger(__name__)
 
 _LOOKED_THROUGH = 4000  # characters, for the first line
 # first words of files, and how their names end
-_STARTS = {"$MESHFORMAT": ".msh", "<VTKFILE": ".vtu", "# VTK DATAFILE": ".vtk"}
+_STARTS = {"$MESHFORMAT": ".msh", "<VTKFILE": ".vtu"}
 _STARTS |= dict.fromkeys(("*NODE", "*HEADING", "*PART"), ".inp")
-_STARTS |= dict.fromkeys(("SOL ", "CEND", "BEGIN BULK", "GRID"), ".bdf")
 
 _ENDS = {".msh": "$End", ".vtu": "</VTKFile>"}
 _WITH_CENTRES = "hexahedron27"
@@ -88,8 +87,6 @@ def _check_start(path: Path) -> None:
     for start, suffix in _STARTS.items():
         if first.upper().startswith(start) and suffix != path.suffix.lower():
             cure = f"rename it to {path.stem}{suffix}"
-            if suffix not in origin.MESH_SUFFIXES:
-                cure += f"; {origin.CONVERSION}"
             raise ValueError(f"begins with {first[: len(start)]}, as a {suffix} file does: {cure}")
 
 

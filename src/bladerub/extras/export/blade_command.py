@@ -31,10 +31,6 @@ def write(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any]
     from bladerub.extras.export import calculix, matrices, mesh_file
     from bladerub.extras.export.vtu import read_mesh
 
-    for option, suffixes in (("mesh", mesh_file.FORMATS), ("matrices", matrices.SUFFIXES)):
-        file = getattr(options, option)
-        if file and file.suffix.lower() not in suffixes:
-            raise BadInput(f"--{option} {file}: must end in {', '.join(suffixes)}")
     stored_blade, config = inputs.read_blade(options, config)
     path, blade = stored_blade.path, stored_blade.reduced
     with refused(OSError):
@@ -120,11 +116,7 @@ def _speeds(options: argparse.Namespace, highest: float, f1_hz: float) -> list[f
 
 def write_sections(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any], str]:
     """Write the table that the command line asks for; return its size, also in words."""
-    from bladerub.extras.blades.origin import TABLE_SUFFIXES
-
     path = options.sections
-    if path.suffix.lower() not in TABLE_SUFFIXES:
-        raise BadInput(f"--sections {path}: must end in {', '.join(TABLE_SUFFIXES)}")
     if source := config.blade.plugged("source"):
         origin = ", ".join(source.plain())
         raise BadInput(

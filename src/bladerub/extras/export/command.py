@@ -9,6 +9,7 @@ import numpy as np
 from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
+from bladerub.extras.blades.origin import MESH_SUFFIXES, TABLE_SUFFIXES
 from bladerub.extras.export import blade_command
 from bladerub.io.errors import BadInput
 
@@ -34,6 +35,12 @@ _GOES_WITH = {
     "coordinates": ("sections",),
 }
 """Options that need one of others."""
+_SUFFIXES = {
+    "animation": (".gif",),
+    "mesh": MESH_SUFFIXES,
+    "matrices": (".npz", ".mat"),
+    "sections": TABLE_SUFFIXES,
+}
 
 
 def add_to(commands: Any) -> None:
@@ -81,6 +88,10 @@ def export(options: argparse.Namespace) -> None:
     for form in ("vtu", "animation"):
         if getattr(options, form) and not options.run:
             raise BadInput(f"--{form}: needs --run, the run whose motion is written")
+    for form, suffixes in _SUFFIXES.items():
+        file = getattr(options, form)
+        if file and file.suffix.lower() not in suffixes:
+            raise BadInput(f"--{form} {file}: must end in {', '.join(suffixes)}")
     if options.animation:
         figures, text = _animation(options, config)
     elif options.vtu:
@@ -143,8 +154,6 @@ def _motion(options: argparse.Namespace, config: "Config") -> tuple[dict[str, An
 def _animation(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any], str]:
     """Write the animation of a run; return what was written, also in words."""
     path = options.animation
-    if path.suffix.lower() != ".gif":
-        raise BadInput(f"--animation {path}: must end in .gif")
     run, plan, blade, _ = _run_of_file(options, config, "animation")
 
     from bladerub.extras.export.animation import animate

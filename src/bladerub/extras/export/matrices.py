@@ -14,12 +14,11 @@ from bladerub.blade.reduction import fit_speeds
 from bladerub.extras.blades.matrix_folder import AT_SPEED, FIT, MASS, NODES
 from bladerub.io import atomic
 
-SUFFIXES = (".npz", ".mat")
 _DIGITS = 17  # enough to restore every bit
 
 
 def write_matrices(path: str | Path, blade: ReducedBlade) -> None:
-    """Write the fields of `ReducedBlade` under their own names; `path` ends in one of `SUFFIXES`."""
+    """Write the fields of `ReducedBlade` under their own names; `path` ends in ``.npz`` or ``.mat``."""
     content = blade.arrays | blade.attributes
     with atomic.writing(path, "wb") as file:
         if Path(path).suffix.lower() == ".npz":
