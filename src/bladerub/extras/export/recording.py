@@ -70,12 +70,9 @@ def record(
     for first, last in pairwise(sorted({*range(0, end + 1, n_elements), *instants})):
         _, blade_progress = simulation.advance(np.empty((len(seats), last - first)), first)
         revolution = first // n_elements
-        if revolution < peak.shape[1]:
-            largest = [
-                max(abs(motion.lowest), abs(motion.highest)) if motion.n_steps else np.nan
-                for motion in blade_progress
-            ]
-            peak[:, revolution] = np.fmax(peak[:, revolution], largest)
+        for largest, motion in zip(peak, blade_progress, strict=True):
+            if motion.n_steps and revolution < largest.size:
+                largest[revolution] = np.fmax(largest[revolution], max(-motion.lowest, motion.highest))
         if last in stops:
             for seat, motion in zip(seats, motions, strict=True):
                 state, rule = seat.simulation.state, seat.rule

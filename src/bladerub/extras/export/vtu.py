@@ -6,10 +6,10 @@ is the whole stress, that of the rotation included.
 """
 
 import os
-import shutil
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -70,17 +70,20 @@ def write_motion(
     """
     folder = Path(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)
-    temporary = folder.with_name(f".{folder.name}.{os.getpid()}.tmp")
-    temporary.mkdir()
     turns = [_turn(blade.angle) for blade in row.blades] if row else [np.eye(3)]
     points = np.concatenate([mesh["points"] @ turn for turn in turns])
     shifted = [mesh["cells"] + number * len(mesh["points"]) for number in range(len(turns))]
     cells = [block(points, np.concatenate(shifted))]  # nodes in the order of VTK already
-    try:
-        names: list[list[str]] = []
-        largest: dict[str, Any] = {"largest_displacement": 0.0}
-        instants = zip(recording.coordinates, recording.time, strict=True)
-        for number, (coordinates, time) in enumerate(instants, 1):
+    root = ET.Element("VTKFile", type="Collection", version="0.1")
+    lines = [_FRAME, *(f"{key}: {value}" for key, value in about.items())]
+    root.append(ET.Comment("\n".join(["", *(line.replace("--", "- -") for line in lines), ""])))
+    collection = ET.SubElement(root, "Collection")
+    largest: dict[str, Any] = {"largest_displacement": 0.0}
+    with TemporaryDirectory(prefix=f".{folder.name}.", dir=folder.parent) as scratch:
+        motion = Path(scratch) / folder.name
+        motion.mkdir()
+        instants = zip(recording.coordinates, recording.wear, recording.time, strict=True)
+        for number, (coordinates, wear, time) in enumerate(instants, 1):
             fields: list[dict[str, np.ndarray]] = []  # of each blade
             for blade_coordinates, turn in zip(coordinates, turns, strict=True):
                 displacement = np.tensordot(blade_coordinates, mesh["recovery"], axes=1).astype(np.float32)
@@ -92,15 +95,15 @@ def write_motion(
             for name, values in data.items():
                 if name != "displacement":
                     _note(largest, f"largest_{name}", values, points, time)
-            names.append([f"blade_{number:04}.vtu"])
-            meshio.Mesh(points, cells, data).write(temporary / names[-1][0])
+            parts = {f"blade_{number:04}.vtu": meshio.Mesh(points, cells, data)}
             if row:
-                names[-1].append(f"coating_{number:04}.vtu")
-                _ring(mesh, recording.wear[number - 1], time).write(temporary / names[-1][1])
-        _write_collection(temporary / COLLECTION, names, recording.time, about)
-        os.rename(temporary, folder)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
+                parts[f"coating_{number:04}.vtu"] = _ring(mesh, wear, time)
+            for part, (name, content) in enumerate(parts.items()):
+                content.write(motion / name)
+                ET.SubElement(collection, "DataSet", timestep=f"{time:.10g}", part=str(part), file=name)
+        ET.indent(root)
+        ET.ElementTree(root).write(motion / COLLECTION, encoding="utf-8", xml_declaration=True)
+        os.rename(motion, folder)
     return largest
 
 
@@ -140,15 +143,3 @@ def _note(largest: dict[str, Any], name: str, values: np.ndarray, points: np.nda
     if values[node] > largest.get(name, -np.inf):
         place = {f"{name}_at": points[node].tolist(), f"{name}_time": float(time)}
         largest.update({name: float(values[node])} | place)
-
-
-def _write_collection(path: Path, names: list[list[str]], time: np.ndarray, about: Mapping[str, str]) -> None:
-    root = ET.Element("VTKFile", type="Collection", version="0.1")
-    lines = [_FRAME, *(f"{key}: {value}" for key, value in about.items())]
-    root.append(ET.Comment("\n".join(["", *(line.replace("--", "- -") for line in lines), ""])))
-    collection = ET.SubElement(root, "Collection")
-    for parts, instant in zip(names, time, strict=True):
-        for part, name in enumerate(parts):
-            ET.SubElement(collection, "DataSet", timestep=f"{instant:.10g}", part=str(part), file=name)
-    ET.indent(root)
-    ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)

@@ -64,27 +64,22 @@ def _read(table: cells.Cells, units: Mapping[str, str]) -> list[Curve]:
     if values.stress.sum() <= 0:
         raise ValueError("column stress: is negative on the whole; compression must be positive")
     values = values.assign(rate=values.get("rate", 0.0))
-    if "test" in header:
-        groups = values.groupby(table.column("test"), sort=False)
-        for name, rows in groups:
-            if rows.rate.nunique() > 1:
-                raise ValueError(f"test {name} has {rows.rate.nunique()} rates, must have one")
-    else:
-        groups = values.groupby("rate")
-    curves = [
-        Curve(float(rows.rate.iloc[0]), rows.strain.to_numpy(), rows.stress.to_numpy()) for _, rows in groups
-    ]
-    for curve in curves:
-        if len(curve.strain) < FEWEST_OF_CURVE:
+    curves = []
+    for test, rows in values.groupby(table.column("test") if "test" in header else "rate", sort=False):
+        rate, strain = float(rows.rate.iloc[0]), rows.strain.to_numpy()
+        if rows.rate.nunique() > 1:
+            raise ValueError(f"test {test} has {rows.rate.nunique()} rates, must have one")
+        if strain.size < FEWEST_OF_CURVE:
             raise ValueError(
-                f"the rate {curve.rate:g} 1/s has {len(curve.strain)} rows, must have {FEWEST_OF_CURVE} or "
-                "more; all rows of a test must have one rate, the nominal one"
+                f"the rate {rate:g} 1/s has {strain.size} rows, must have {FEWEST_OF_CURVE} or more; all "
+                "rows of a test must have one rate, the nominal one"
             )
-        if curve.strain[0] > 0 and curve.strain[0] == curve.strain.max():
+        if 0 < strain[0] == strain.max():
             raise ValueError(
-                f"the curve at the rate {curve.rate:g} 1/s begins at its largest strain; rows must be in the "
-                "order of loading"
+                f"the curve at the rate {rate:g} 1/s begins at its largest strain; rows must be in the order "
+                "of loading"
             )
+        curves.append(Curve(rate, strain, rows.stress.to_numpy()))
     return sorted(curves, key=lambda curve: curve.rate)
 
 
