@@ -21,9 +21,12 @@ MESH_SUFFIXES = (".inp", ".msh", ".vtu")
 CONVERSION = "meshio convert makes .vtu of other meshes, gmsh -3 -order 2 a .msh of a solid (.step, .iges)"
 TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other files are meshes
 _OF_FRAME = tuple(asdict(Frame()))
-_OF_MESHES, _OF_TABLES = ("root_set", "tip_set"), ("angle_unit",)
-_KEYS = {"matrices": ("matrix_units", "omega_max"), "file": (*_OF_MESHES, *_OF_TABLES)}
-"""Keys that go with a place, beside ``tip_cone`` and those of the frame."""
+_KEYS = {
+    "matrices": ("matrices", "matrix_units", "omega_max"),
+    "a mesh": ("file", "root_set", "tip_set"),
+    "a table of sections": ("file", "angle_unit"),
+}
+"""Keys that go with a kind of source, beside ``tip_cone`` and those of the frame."""
 
 
 def path(source: Source) -> Path:
@@ -45,20 +48,15 @@ def check(source: Source) -> None:
     """Check that the keys of a source go together.
 
     A ValueError begins with the key if neither ``file`` nor ``matrices`` is there, of what does not go with
-    them or with this kind of file, and of a frame that cannot be.
+    this kind of source, and of a frame that cannot be.
     """
-    keys = source.plain()
-    place = next((key for key in _KEYS if key in keys), None)
-    if place is None:
+    if not (source.matrices or source.file):
         raise ValueError("file: missing; must be given, or matrices in its place")
-    for key in keys:
-        if key not in (place, "tip_cone", *_OF_FRAME, *_KEYS[place]):
-            raise ValueError(f"{key} = {keys[key]}: must not be given beside {place}")
+    kind = "matrices" if source.matrices else "a table of sections" if is_table(source) else "a mesh"
+    for key, value in source.plain().items():
+        if key not in ("tip_cone", *_OF_FRAME, *_KEYS[kind]):
+            raise ValueError(f"{key} = {value}: must not be given beside {kind}")
     frame(source)
-    kind, others = ("mesh", _OF_MESHES) if is_table(source) else ("table of sections", _OF_TABLES)
-    for key in others:
-        if key in keys:
-            raise ValueError(f"{key} = {keys[key]}: goes with a {kind}, not with {path(source).name}")
 
 
 def problems(source: Source, files: Callable[[Source], list[str]]) -> Iterator[str]:
