@@ -2,7 +2,6 @@
 
 import io
 import logging
-import os
 import re
 from collections import Counter
 from contextlib import redirect_stderr
@@ -20,7 +19,7 @@ meshio = package("meshio", "mesh")
 
 log = logging.getLogger(__name__)
 
-_LOOKED_THROUGH = 4000  # characters, for the first line
+_LOOKED_THROUGH = 4000  # bytes, for the first line
 # first words of files, and how their names end
 _STARTS = {"$MESHFORMAT": ".msh", "<VTKFILE": ".vtu"}
 _STARTS |= dict.fromkeys(("*NODE", "*HEADING", "*PART"), ".inp")
@@ -51,8 +50,7 @@ def read(path: Path) -> MeshFile:
     Elements of 8 and 4 nodes, far too stiff in bending, become such of 20 and 10 with straight edges.
     """
     origin.check_file(path)
-    _check_start(path)
-    _check_end(path)
+    _check_ends(path)
     content = deck_mesh.read(path) if path.suffix.lower() == ".inp" else _of_meshio(_read_by_meshio(path))
     cells = _volume(content)
     points = np.asarray(content.points, dtype=float)
@@ -76,28 +74,21 @@ def _read_by_meshio(path: Path) -> meshio.Mesh:
     return mesh
 
 
-def _check_start(path: Path) -> None:
-    """Raise ValueError if a file begins as one of another program."""
-    with path.open(encoding="utf-8", errors="replace") as stream:
-        text = stream.read(_LOOKED_THROUGH)
-    if "\0" in text and path.suffix.lower() == ".inp":
+def _check_ends(path: Path) -> None:
+    """Raise ValueError if a file begins as one of another program, or one of Gmsh or VTK is cut off."""
+    content, ending = path.read_bytes().strip(), path.suffix.lower()
+    text = content[:_LOOKED_THROUGH].decode("utf-8", errors="replace")
+    if "\0" in text and ending == ".inp":
         raise ValueError("is not text in UTF-8; save it as such")
     lines = (line.strip() for line in text.splitlines())
     first = next((line for line in lines if line and not line.startswith(("**", "$ ", "<?xml"))), "")
     for start, suffix in _STARTS.items():
-        if first.upper().startswith(start) and suffix != path.suffix.lower():
+        if first.upper().startswith(start) and suffix != ending:
             cure = f"rename it to {path.stem}{suffix}"
             raise ValueError(f"begins with {first[: len(start)]}, as a {suffix} file does: {cure}")
-
-
-def _check_end(path: Path) -> None:
-    """Raise ValueError if a file of Gmsh or VTK is cut off."""
-    expected = _ENDS.get(path.suffix.lower(), "")
-    with path.open("rb") as stream:
-        stream.seek(-min(_LOOKED_THROUGH, path.stat().st_size), os.SEEK_END)
-        *_, last = [b"", *stream.read().strip().splitlines()]
-    if expected.encode() not in last:
-        raise ValueError(f"does not end with {expected}: it is cut off, or no {path.suffix} file")
+    end = _ENDS.get(ending, "")
+    if end.encode() not in content.rpartition(b"\n")[2]:
+        raise ValueError(f"does not end with {end}: it is cut off, or no {ending} file")
 
 
 def raised(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -32,6 +32,8 @@ _GOES_WITH = {
     "speeds": ("calculix", "fe_matrices"),
     "matrix_format": ("fe_matrices",),
     "run": ("vtu", "animation"),
+    "vtu": ("run",),
+    "animation": ("run",),
     "coordinates": ("sections",),
 }
 """Options that need one of others."""
@@ -85,9 +87,6 @@ def export(options: argparse.Namespace) -> None:
         if getattr(options, option) and not any(getattr(options, form) for form in forms):
             names = " or ".join(f"--{form.replace('_', '-')}" for form in forms)
             raise BadInput(f"--{option.replace('_', '-')}: goes with {names} only")
-    for form in ("vtu", "animation"):
-        if getattr(options, form) and not options.run:
-            raise BadInput(f"--{form}: needs --run, the run whose motion is written")
     for form, suffixes in _SUFFIXES.items():
         file = getattr(options, form)
         if file and file.suffix.lower() not in suffixes:
