@@ -42,13 +42,19 @@ def read(path: Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
     names, lines = table.column("section"), np.array([*table.rows])
     if "" in names:
         raise ValueError(f"line {lines[names.index('')]}: has no section")
-    sections = []
+    sections: dict[str, Section] = {}
     for name, group in groupby(range(len(names)), names.__getitem__):
         rows = [*group]
+        if name in sections:
+            raise ValueError(
+                f"line {lines[rows[0]]}: section {name} comes back; all its stations must follow line "
+                f"{sections[name].lines[0]}"
+            )
         values = {column: of_all[rows] for column, of_all in numbers.items()}
-        sections.append(_section(name, lines[rows], values, frame, angle_unit))
-    _check_names(sections)
-    return sections
+        sections[name] = _section(name, lines[rows], values, frame, angle_unit)
+    if len(sections) < 2:
+        raise ValueError(f"has {len(sections)} section; must have two or more, from hub to tip")
+    return [*sections.values()]
 
 
 def read_cells(path: Path) -> tuple[Cells, tuple[str, ...]]:
@@ -94,15 +100,3 @@ def _section(
     else:
         sides = [np.stack([values[axis] for axis in side], axis=1) for side in (POINTS[:3], POINTS[3:])]
     return Section(name, lines, np.stack([frame.metres(side) for side in sides]))
-
-
-def _check_names(sections: list[Section]) -> None:
-    if len(sections) < 2:
-        raise ValueError(f"has {len(sections)} section; must have two or more, from hub to tip")
-    sections_by_name = {}
-    for section in sections:
-        if (first := sections_by_name.setdefault(section.name, section)) is not section:
-            raise ValueError(
-                f"line {section.lines[0]}: section {section.name} comes back; all its stations must follow "
-                f"line {first.lines[0]}"
-            )
