@@ -15,12 +15,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bladerub.settings import units
+
 LARGEST_FILE = 100_000_000
 """Largest table that is read, in bytes."""
 
-UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}
-UNITS |= {"in": UNITS["inch"], "ft": UNITS["feet"]}  # m
-ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180}  # rad
+UNITS, ANGLE_UNITS = (
+    {name: float(size) for name, size in units.UNITS[kind].items()} for kind in ("length", "angle")
+)
 """Units of length and of angle by name, in SI."""
 
 _SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", None: "white space"}
@@ -83,7 +85,7 @@ class Cells(NamedTuple):
             if not np.isfinite(number):
                 excerpt = cell[:40] or "nothing"
                 raise ValueError(
-                    f"line {line}: {name} = {excerpt}, must be a finite number{self._run_together([cell])}"
+                    f"line {line}: {name} = {excerpt}, must be a finite number{self._cure([cell])}"
                 )
             numbers[index] = number
         if self.separator != "commas" and any("," in cell for cell in self.column(name)):
@@ -117,12 +119,9 @@ class Cells(NamedTuple):
         return cell if self.separator == "commas" else cell.replace(",", ".")
 
     def _cure(self, row: list[str]) -> str:
+        """Say what a row has, or a cell: decimal commas, or two numbers, as Fortran fills its columns."""
         if self.separator == "commas" and len(row) > len(self.names):
             return "; with decimal commas, separate the cells by semicolons"
-        return self._run_together(row) if self.separator == "white space" else ""
-
-    def _run_together(self, row: list[str]) -> str:
-        """Name a cell that holds two numbers, as Fortran fills columns of fixed width without a blank."""
         for cell in row:
             if _TWO_NUMBERS.match(self._with_point(cell)):
                 return f'; "{cell[:40]}" holds two numbers: columns of fixed width need a blank between them'
