@@ -3,7 +3,7 @@
 A permutation of coordinates changes no frequency. But the mass of a node is alike in all directions, and a
 translation or a rotation of the rigid body leaves no force at rest, except at nodes next to clamped ones.
 Translations show whether the coordinates are x, y, z node by node, rotations whether the nodes are where
-``nodes.csv`` has them.
+``nodes.csv`` has them: `points` (n, 3) for the nodes of a matrix (3n, 3n), in `rows` (n,), from 1.
 """
 
 from collections.abc import Callable
@@ -40,10 +40,7 @@ def check_joined(mass: sparse.csc_array, stiffness: sparse.csc_array) -> None:
 
 
 def check_mass(mass: sparse.csc_array, rows: np.ndarray) -> None:
-    """Raise ValueError if the mass of nodes differs by direction, or acts between directions.
-
-    `rows` (n,) of ``nodes.csv``, from 1, are those of the nodes of the matrix (3n, 3n).
-    """
+    """Raise ValueError if the mass of nodes differs by direction, or acts between directions."""
     _check_coordinates(mass, _unequal, rows, "differs by direction, or acts between directions,")
 
 
@@ -82,9 +79,8 @@ def check_stiffness(
 ) -> None:
     """Raise ValueError if a translation leaves forces at nodes away from the clamped ones.
 
-    `points` (n, 3) and `rows` (n,) are of the nodes of the matrix (3n, 3n), `clamped` (m, 3) the places of
-    clamped nodes; the nodes `interface` are away from any, at the tip. Nodes that are joined to all others,
-    as in a condensed matrix, tell nothing.
+    `clamped` (m, 3) are the places of clamped nodes; the nodes `interface` are away from any, at the tip.
+    Nodes that are joined to all others, as in a condensed matrix, tell nothing.
     """
 
     def away(matrix: sparse.csc_array) -> np.ndarray:
