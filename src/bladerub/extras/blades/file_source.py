@@ -21,8 +21,8 @@ if TYPE_CHECKING:  # import the solver, which a plan does without
 def problems(config: Config) -> Iterator[str]:
     """Yield a line for each thing in `config` that cannot be; raises ValueError as `geometry.check_size`."""
     source = config.blade.source
-    yield from origin.problems(source, files)
-    if origin.is_table(source):
+    yield from (wrong := [*origin.problems(source, files)])
+    if origin.is_table(source) and not wrong:
         geometry.check_size(config.blade.mesh)
         geometry.check_interface(config.blade.mesh, n_interface(config))
 
