@@ -31,7 +31,7 @@ WITH_MODULI = any(
 SCALES = {
     "modulus_unit": modulus_unit(STUDY),
     "length": config["blade"]["length"],
-    "engine": {"nominal_speed": config["figures"].get("nominal_speed")},
+    "nominal_speed": config["figures"].get("nominal_speed"),
 }
 PLAIN = {"dpi": DPI}
 SCALED = PLAIN | {"scales": SCALES}

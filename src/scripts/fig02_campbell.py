@@ -13,5 +13,5 @@ table[["f_fe", "f_rom"]] /= hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
 table = table.rename(columns={"f_fe": "f_fe_over_f1", "f_rom": "f_rom_over_f1"})
 modes = table.pivot(index="f_omega", columns="mode")
 frequencies = modes["f_fe_over_f1"], modes["f_rom_over_f1"]
-figure = campbell(modes.index, *frequencies, range(1, 13), outputs.scales(snakemake).engine)
+figure = campbell(modes.index, *frequencies, range(1, 13), outputs.scales(snakemake))
 outputs.save(snakemake, figure, data=table)

@@ -19,7 +19,7 @@ from bladerub.extras.variations.verdicts import side_by_side, verdicts
 from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.polar import wear_profiles
-from bladerub.plots.spectrum import PeakSection, peak_sections, spectrum_map
+from bladerub.plots.spectrum import peak_sections, spectrum_map
 from bladerub.plots.wear_map import wear_map
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence
@@ -27,7 +27,6 @@ from bladerub.study.grid import coating_cases, speeds
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import write_map
 from bladerub.study.orders import peak_settings
-from bladerub.study.peaks import order_amplitude, peak, speed_window
 
 pytestmark = pytest.mark.slow
 
@@ -129,13 +128,8 @@ def test_every_figure_and_page_is_made(study, sound, kind, accuracy, tmp_path):
     settings = peak_settings(study, "2nd")
     figures = [wear_profiles([each for each in maps if each.case.E == 2], [0.19, 0.197])[1]]
     for coating in maps[-2:]:
-        sections = []
-        for order in settings.orders:
-            amplitude = order_amplitude(coating, order, settings.order_halfwidth)
-            window, found = speed_window(coating, order, settings), peak(coating, order, settings)
-            sections.append(PeakSection(order, amplitude, window, found))
         figures += [wear_map(coating), spectrum_map(coating, RANGE, 2.0), Map(coating).plot_spectrum()]
-        figures.append(peak_sections(coating, sections, RANGE, 2.0))
+        figures.append(peak_sections(coating, settings, RANGE, 2.0)[1])
     layer = made["peaks"].query("casing == '2nd' and theta == 0 and E < 1e9")
     figures += [peak_histogram(layer, quantity, 4, 6e8)[1] for quantity in ("amplitude", "f_peak")]
     paths = [tmp_path / f"{coating.case.name}.h5" for coating in maps]

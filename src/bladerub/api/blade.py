@@ -176,9 +176,9 @@ class Blade(Shown):
         In the axes `ax`, which are returned, are the first mode and the engine orders.
         """
         modes = self.accuracy().pivot(index="f_omega", columns="mode") / self.f1_hz
-        f_fe, f_rom, engine = modes["f_fe"], modes["f_rom"], plots.scales.Engine(self.f1_hz)
+        f_fe, f_rom, scales = modes["f_fe"], modes["f_rom"], plots.scales.Scales(f1_hz=self.f1_hz)
         orders = plots.spectrum.ORDERS
-        return plots.campbell.campbell(modes.index, f_fe, f_rom, orders, engine, path=path, ax=ax)
+        return plots.campbell.campbell(modes.index, f_fe, f_rom, orders, scales, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return matrices, interface nodes and directions with units and names."""

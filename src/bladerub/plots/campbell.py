@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bladerub.plots.scales import Engine, draw_engine_orders
+from bladerub.plots.scales import UNKNOWN, Scales, draw_engine_orders
 from bladerub.plots.style import DARK, ORANGE, PAGE, new_figure, on_axes
 
 _FREQUENCY = r"eigenfrequency $f\,/\,f_1(0)$"
@@ -17,36 +17,34 @@ def campbell(
     f_fe: np.ndarray,
     f_rom: np.ndarray,
     orders: range,
-    engine: Engine | None = None,
+    scales: Scales = UNKNOWN,
     ax: Axes | None = None,
 ) -> Figure:
     """Draw Fig. 2: all modes (a) and the first of them, which the engine `orders` cross (b).
 
     Finite elements `f_fe` dashed on top of the reduced model `f_rom`, solid: eigenfrequencies (n, n_modes),
-    ascending, NaN where unknown, at the speeds `f_omega` (n,); all normalised. With an `engine` there are its
-    speeds and frequencies besides, and its nominal speed. Axes that are given hold (b).
+    ascending, NaN where unknown, at the speeds `f_omega` (n,); all normalised. With `scales` there are speeds
+    and frequencies of the rotor besides, and its nominal speed. Axes that are given hold (b).
     """
     modes = np.asarray(f_omega), np.asarray(f_fe), np.asarray(f_rom)
     top_of_first, top = 1.5 * float(np.nanmax(modes[2][:, 0])), 1.04 * float(np.nanmax(modes[1:]))
     if ax is not None:
-        _draw(ax, modes, orders, top_of_first, engine)
+        _draw(ax, modes, orders, top_of_first, scales)
         ax.set_ylabel(_FREQUENCY)
         ax.legend(loc="lower right")
         return ax.figure
     figure = new_figure(PAGE, 0.62 * PAGE)
     all_modes, first = figure.subplots(1, 2)
-    _draw(all_modes, modes, orders[-1:], top, engine)
+    _draw(all_modes, modes, orders[-1:], top, scales)
     all_modes.set_ylabel(_FREQUENCY)
     all_modes.set_title(f"(a) first {modes[2].shape[1]} modes", pad=16)
-    _draw(first, modes, orders, top_of_first, engine)
+    _draw(first, modes, orders, top_of_first, scales)
     first.set_title("(b) first mode, $C_1$", pad=16)
     figure.legend(*all_modes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
-def _draw(
-    axes: Axes, modes: tuple[np.ndarray, ...], orders: range, highest: float, engine: Engine | None
-) -> None:
+def _draw(axes: Axes, modes: tuple[np.ndarray, ...], orders: range, highest: float, scales: Scales) -> None:
     f_omega, f_fe, f_rom = modes
     fastest = float(f_omega.max())
     draw_engine_orders(axes, {k: k for k in orders}, fastest, highest)
@@ -55,10 +53,9 @@ def _draw(
         axes.plot(f_omega, f_rom[:, mode], color=ORANGE, linewidth=2.6, label=rom)
         axes.plot(f_omega, f_fe[:, mode], color=DARK, linestyle=(0, (4, 2)), linewidth=1.0, label=fe)
     axes.set(xlim=(0, fastest), ylim=(0, highest), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
-    if engine:
-        engine.add_speeds(axes, "x")
-        engine.add_frequencies(axes, "y")
-        engine.draw_nominal_speed(axes.axvline)
+    scales.add_speeds(axes, "x")
+    scales.add_frequencies(axes, "y")
+    scales.draw_nominal_speed(axes.axvline)
     _number(axes, f_rom[0] / highest)
 
 

@@ -44,25 +44,35 @@ def draw_engine_orders(axes: Axes, slopes: Mapping[int, float], x_max: float, y_
 
 
 @dataclass(frozen=True)
-class Engine:
-    """The rotor of a blade: what normalised speeds and frequencies are in rpm and Hz."""
+class Scales:
+    """What turns the numbers of a figure into those of its blade; what is None is not known or not said."""
 
-    f1_hz: float  # first frequency of the blade at rest
-    nominal_speed: float | None = None  # 1/min
+    modulus_unit: float | None = None  # of E and K, Pa
+    length: float | None = None  # of the blade, m
+    f1_hz: float | None = None  # first frequency of the blade at rest
+    nominal_speed: float | None = None  # of its rotor, 1/min
+
+    def is_large(self, coating: CoatingMap) -> np.ndarray:
+        """Find the speeds (n,) at which node 1 moves further than small displacements are."""
+        if self.length is None:
+            return np.zeros(coating.f_omega.size, dtype=bool)
+        return np.nan_to_num(coating.revolution_peak).max(axis=1) >= LARGE_DISPLACEMENT * self.length
 
     def add_speeds(self, axes: Axes, along: str) -> None:
-        """Add a second scale, rpm and Hz, to the speeds that run `along` "x" or "y"."""
-        axis = self._second(axes, along, 60 * self.f1_hz)
-        axis.set_major_formatter(lambda rpm, _: f"{rpm:.0f}\n{rpm / 60:.0f} Hz")
-        axis.set_label_text("rotor speed (rpm, Hz)")
+        """Add a second scale, rpm and Hz, to the speeds that run `along` "x" or "y", if f1 is known."""
+        if self.f1_hz:
+            axis = self._second(axes, along, 60 * self.f1_hz)
+            axis.set_major_formatter(lambda rpm, _: f"{rpm:.0f}\n{rpm / 60:.0f} Hz")
+            axis.set_label_text("rotor speed (rpm, Hz)")
 
     def add_frequencies(self, axes: Axes, along: str) -> None:
-        """Add a second scale, Hz, to the frequencies that run `along` "x" or "y"."""
-        self._second(axes, along, self.f1_hz).set_label_text("frequency (Hz)")
+        """Add a second scale, Hz, to the frequencies that run `along` "x" or "y", if f1 is known."""
+        if self.f1_hz:
+            self._second(axes, along, self.f1_hz).set_label_text("frequency (Hz)")
 
     def draw_nominal_speed(self, draw: Callable) -> None:
         """Draw the nominal speed, if it is known, by `draw`: ``axvline`` or ``axhline`` of the axes."""
-        if self.nominal_speed is not None:
+        if self.f1_hz and self.nominal_speed is not None:
             label = f"nominal speed, {self.nominal_speed:g} rpm"
             draw(self.nominal_speed / 60 / self.f1_hz, label=label, zorder=3, **_LINE)
 
@@ -75,21 +85,6 @@ class Engine:
         second.spines[side].set_color(GREY)
         second.tick_params(labelsize=7, color=GREY)
         return second.xaxis if along == "x" else second.yaxis
-
-
-@dataclass(frozen=True)
-class Scales:
-    """What turns the numbers of a figure into those of its blade; what is None is not known or not said."""
-
-    modulus_unit: float | None = None  # of E and K, Pa
-    length: float | None = None  # of the blade, m
-    engine: Engine | None = None
-
-    def is_large(self, coating: CoatingMap) -> np.ndarray:
-        """Find the speeds (n,) at which node 1 moves further than small displacements are."""
-        if self.length is None:
-            return np.zeros(coating.f_omega.size, dtype=bool)
-        return np.nan_to_num(coating.revolution_peak).max(axis=1) >= LARGE_DISPLACEMENT * self.length
 
 
 UNKNOWN = Scales()

@@ -1,6 +1,6 @@
 """Spectrum of the blade over frequency and speed, with the engine orders, C1 and the peaks."""
 
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,8 +10,12 @@ from matplotlib.figure import Figure
 from bladerub.plots import bins, style, titles
 from bladerub.plots.scales import LARGE, UNKNOWN, Scales, draw_engine_orders, greatest
 from bladerub.plots.style import PAGE, RED, new_figure
+from bladerub.settings.analysis import Peaks
 from bladerub.study.maps import CoatingMap
-from bladerub.study.peaks import Peak
+from bladerub.study.peaks import order_amplitude, peak, speed_window
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 ORDERS = range(1, 13)
 """Engine orders that are drawn and labelled."""
@@ -19,16 +23,6 @@ ORDERS = range(1, 13)
 _LOOKS = (style.FIRST | {"marker": "o"}, style.SECOND | {"marker": "s"})
 _LARGE = {"marker": ">", "color": RED, "markersize": 4, "linestyle": "none", "clip_on": False, "label": LARGE}
 _RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
-
-
-@dataclass(frozen=True)
-class PeakSection:
-    """Amplitude along one engine order, and its maximum."""
-
-    order: int
-    amplitude: np.ndarray  # (n,), on eo(k) at each speed, m
-    window: tuple[float, float]  # speeds between which the maximum was searched, normalised
-    peak: Peak
 
 
 @style.on_axes
@@ -56,15 +50,18 @@ def spectrum_map(
 @style.styled
 def peak_sections(
     coating: CoatingMap,
-    sections: list[PeakSection],
+    settings: Peaks,
     amplitude_range: tuple[float, float],
     f_max: float,
     scales: Scales = UNKNOWN,
-) -> Figure:
+) -> "tuple[pd.DataFrame, Figure]":
     """Draw Fig. 10: the spectrum with Y_k marked (a), the amplitude along eo(k) with its window (b).
 
-    There are one or two `sections`; the other arguments are as of `spectrum_map`.
+    The first two orders of the `settings`, ``config.analysis.peaks``, are drawn; the other arguments are as
+    of `spectrum_map`. The table is what is drawn in (b): ``order``, ``f_omega`` and ``amplitude``, m.
     """
+    import pandas as pd  # spectra do without
+
     figure = new_figure(PAGE, 0.7 * PAGE)
     spectrum, curves = figure.subplots(1, 2, sharey=True, width_ratios=[1.5, 1])
     _draw_spectrum(spectrum, coating, amplitude_range, f_max, scales, location="bottom", aspect=40)
@@ -72,19 +69,30 @@ def peak_sections(
     spectrum.set_title("(a) over frequency and speed", pad=16)
     _add_legend(spectrum, scales)
     ray = coating.f_omega[-1] * np.array([0, 1])
-    for section, look in zip(sections, _LOOKS, strict=False):
-        spectrum.plot(section.order * ray, ray, color=RED, linewidth=0.8, label="_section")
-        _draw_ring(spectrum, section.order * section.peak.f_omega, section.peak.f_omega)
-        _draw_section(curves, coating.f_omega, section, look)
+    sections = []
+    for k, look in zip(settings.orders, _LOOKS, strict=False):
+        amplitude = order_amplitude(coating, k, settings.order_halfwidth)
+        sections.append(pd.DataFrame({"order": k, "f_omega": coating.f_omega, "amplitude": amplitude}))
+        f_peak, height, reason = peak(coating, k, settings)
+        spectrum.plot(k * ray, ray, color=RED, linewidth=0.8, label="_section")
+        _draw_ring(spectrum, k * f_peak, f_peak)
+        label = f"eo({k}): $Y_{{{k}}}$ = {1e3 * height:.3g} mm at $f_{{{k}}}$ = {f_peak:.3f}"
+        window = speed_window(coating, k, settings)
+        if np.isfinite(window).all():
+            curves.axhspan(*window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
+        look = look | {"label": f"eo({k}): no peak" if reason else label}
+        curves.plot(1e3 * amplitude, coating.f_omega, markersize=2.2, linewidth=1.0, **look)
+        _draw_ring(curves, 1e3 * height, f_peak)
+    table = pd.concat(sections)
     curves.set_title("(b) along the engine orders", pad=16)
-    end = 1e3 * greatest(*(section.amplitude for section in sections))
+    end = 1e3 * greatest(table.amplitude)
     curves.set(xlim=(0, 1.1 * end), xlabel="amplitude (mm)")
     curves.tick_params(labelleft=True)
     legend = curves.legend(
         loc="upper center", bbox_to_anchor=(0.45, -0.13), title="shaded: searched speeds", title_fontsize=7
     )
     legend.set_in_layout(False)  # it is in the room that the colour bar makes
-    return figure
+    return table, figure
 
 
 def _draw_spectrum(
@@ -102,14 +110,13 @@ def _draw_spectrum(
     large = coating.f_omega[scales.is_large(coating)]
     if large.size:
         axes.plot(np.zeros(large.size), large, **_LARGE)
-    if scales.engine:
-        scales.engine.draw_nominal_speed(axes.axhline)
-        scales.engine.add_speeds(axes, "y")
-        scales.engine.add_frequencies(axes, "x")
+    scales.draw_nominal_speed(axes.axhline)
+    scales.add_speeds(axes, "y")
+    scales.add_frequencies(axes, "x")
     axes.set(
         facecolor=style.MISSING,
         xlim=(0, f_max),
-        ylim=(speed_edges[0] if scales.engine else 0.0, speed_max),
+        ylim=(speed_edges[0] if scales.f1_hz else 0.0, speed_max),
         xlabel=r"frequency $f\,/\,f_1(0)$",
         ylabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
     )
@@ -119,22 +126,11 @@ def _draw_spectrum(
 
 
 def _add_legend(axes: Axes, scales: Scales) -> None:
-    if scales.engine:  # without the empty room below the first speed
+    if scales.f1_hz:  # without the empty room below the first speed
         handles = axes.get_legend_handles_labels()
         axes.figure.legend(*handles, loc="outside lower center", ncols=4)
     else:
         axes.legend(loc="lower right", title="grey: not computed", title_fontsize=7)
-
-
-def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: dict) -> None:
-    k, f_peak, height = section.order, section.peak.f_omega, 1e3 * section.peak.amplitude
-    label = f"eo({k}): $Y_{{{k}}}$ = {height:.3g} mm at $f_{{{k}}}$ = {f_peak:.3f}"
-    if section.peak.reason:
-        label = f"eo({k}): no peak"
-    if np.isfinite(section.window).all():
-        axes.axhspan(*section.window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
-    axes.plot(1e3 * section.amplitude, f_omega, markersize=2.2, linewidth=1.0, label=label, **look)
-    _draw_ring(axes, height, f_peak)
 
 
 def _draw_ring(axes: Axes, x: float, y: float) -> None:

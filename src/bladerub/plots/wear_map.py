@@ -20,14 +20,13 @@ def _draw_wear(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
     angle_edges, look = np.degrees(bins.edges(coating.angle)), {"cmap": WEAR_MAP, "vmin": 0}
     mesh = axes.pcolormesh(speed_edges, angle_edges, np.ma.masked_invalid(rows.T), **look, rasterized=True)
     axes.figure.colorbar(mesh, ax=axes, label="worn depth, mean of the nodes (mm)", pad=0.015)
-    start = speed_edges[0] if scales.engine else 0.0
+    start = speed_edges[0] if scales.f1_hz else 0.0
     axes.set(facecolor=MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
     axes.set(xlim=(start, speed_edges[-1]))
     axes.set_title(titles.coating(coating.case, scales.modulus_unit), loc="left")
     if start < speed_edges[0] or not np.isfinite(rows).all():
         axes.set_title("grey: not computed", loc="right", fontsize=7)
-    if scales.engine:
-        scales.engine.draw_nominal_speed(axes.axvline)
+    scales.draw_nominal_speed(axes.axvline)
 
 
 @on_axes
@@ -47,8 +46,7 @@ def wear_map(coating: CoatingMap, scales: Scales = UNKNOWN, ax: Axes | None = No
             figure.legend(handles, labels, loc="outside lower center", ncols=4, handletextpad=0.4)
     _draw_wear(upper, coating, scales)
     lower.set_xlabel(r"rotational frequency $f_\Omega\,/\,f_1(0)$")
-    if scales.engine:
-        scales.engine.add_speeds(lower, "x")
+    scales.add_speeds(lower, "x")
     return upper.figure
 
 
@@ -61,5 +59,4 @@ def _draw_lobes(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
     axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
     axes.grid(axis="y")
     axes.set(ylim=(0, 1.2 * max(1, coating.lobes.max())), ylabel="worn lobes")
-    if scales.engine:
-        scales.engine.draw_nominal_speed(axes.axvline)
+    scales.draw_nominal_speed(axes.axvline)

@@ -54,12 +54,10 @@ def rpm(snakemake: Any, f_omega: "pd.Series") -> "pd.Series":
 def scales(snakemake: Any) -> "Scales":
     """Tell a figure what its numbers are, from the parameter ``scales`` of a job and its input ``blade``.
 
-    The parameter has ``modulus_unit`` (Pa) and ``length`` (m) and ``engine``: what is known of the rotor but
-    the first frequency of its blade.
+    The parameter has all of `Scales` but the first frequency, which is of the blade.
     """
     from bladerub.io import hdf5
-    from bladerub.plots.scales import Engine, Scales
+    from bladerub.plots.scales import Scales
 
     f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
-    engine = Engine(f1_hz, **snakemake.params.scales["engine"])
-    return Scales(**{**snakemake.params.scales, "engine": engine})
+    return Scales(f1_hz=f1_hz, **snakemake.params.scales)

@@ -16,7 +16,7 @@ from bladerub.extras.rotor37 import direct, numbers, reference
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.plots import style
-from bladerub.plots.scales import Engine, Scales
+from bladerub.plots.scales import Scales
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.wear_map import wear_map
 from bladerub.settings.study import typed
@@ -60,14 +60,13 @@ panels = {"rigid casing": rigid} | {
     f"coated casing, θ = {angle:g}": response for angle, response in coated.items()
 }
 look = config.figures
-engine = Engine(blade.f1_hz, look.nominal_speed)
-scales = Scales(modulus_unit(config), config.blade.length, engine)
+scales = Scales(modulus_unit(config), config.blade.length, blade.f1_hz, look.nominal_speed)
 spectrum = partial(
     spectrum_map, amplitude_range=look.amplitude_range, f_max=look.max_frequency, scales=scales
 )
 straight, inclined = (response["E = 1 GPa"] for response in coated.values())
 figures = {
-    "response": plots.response(panels, blade.f1_hz, engine.nominal_speed),
+    "response": plots.response(panels, blade.f1_hz, look.nominal_speed),
     "direct": plots.direct_contact(
         tables.read(history),
         direct.spec_of(config, blade, 0.0),

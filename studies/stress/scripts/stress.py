@@ -8,10 +8,10 @@ from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.plots.stress import stress as draw
 from bladerub.extras.stress.table import table
 from bladerub.io import tables
-from bladerub.plots.scales import Engine
+from bladerub.plots.scales import Scales
 from bladerub.settings.study import typed
 from bladerub.study.peaks import COLUMNS
 
 blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
 stresses = table(snakemake.input.mesh, blade, typed(snakemake.config), peaks)
-outputs.save(snakemake, draw(stresses, Engine(blade.f1_hz)), table=stresses)
+outputs.save(snakemake, draw(stresses, Scales(f1_hz=blade.f1_hz)), table=stresses)

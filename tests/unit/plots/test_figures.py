@@ -12,16 +12,14 @@ from bladerub.plots.campbell import campbell
 from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.history import history
 from bladerub.plots.polar import casing_polar, wear_profiles
-from bladerub.plots.scales import Engine, Scales
-from bladerub.plots.spectrum import PeakSection, peak_sections, spectrum_map
+from bladerub.plots.scales import Scales
+from bladerub.plots.spectrum import peak_sections, spectrum_map
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import CoatingCase
-from bladerub.study.peaks import Peak
 
 RANGE = (5e-7, 5e-4)
 ANGLE = np.linspace(0, 2 * np.pi, 60, endpoint=False)
-ENGINE = Engine(f1_hz=850.0, nominal_speed=15300.0)  # f_omega = 0.3
-SCALES = Scales(modulus_unit=0.6e9, length=0.066, engine=ENGINE)
+SCALES = Scales(modulus_unit=0.6e9, length=0.066, f1_hz=850.0, nominal_speed=15300.0)  # f_omega = 0.3
 PEAKS = pd.DataFrame(
     [
         ("2nd", 1.1, 0.5, 0.0, 4, 0.31, 2e-3),
@@ -70,15 +68,15 @@ def test_amplitudes_and_c1_lie_on_their_frequency_on_the_given_scale(coating_map
     np.testing.assert_array_equal(c1.get_xydata(), np.transpose([coating_map.C1, coating_map.f_omega]))
 
 
-def test_peaks_are_drawn_with_their_curves(coating_map, draws):
-    four, six = coating_map.spectrum_amplitude[:, [40, 60]].T
-    sections = [
-        PeakSection(4, four, (0.25, 0.36), Peak(0.3, four[4])),
-        PeakSection(6, six, (0.16, 0.24), Peak(0.2, 1e-6)),
-    ]
-    lines = draws(peak_sections(coating_map, sections, RANGE, f_max=2.5)).axes[1].lines
+def test_peaks_are_drawn_with_their_curves(config, coating_map, draws):
+    settings = config.analysis.peaks.replaced("order_halfwidth", 0.0)
+    table, figure = peak_sections(coating_map, settings, RANGE, f_max=2.5)
+    lines = draws(figure).axes[1].lines
     curves = [line.get_xdata() for line in lines if line.get_label().startswith("eo(")]
-    np.testing.assert_allclose(curves, [1e3 * four, 1e3 * six])
+    np.testing.assert_allclose(curves, 1e3 * coating_map.spectrum_amplitude[:, [40, 60]].T)
+    np.testing.assert_array_equal(table.amplitude, np.ravel(curves) / 1e3)
+    rings = [line.get_xydata().tolist() for line in lines if line.get_label() == "_peak"]
+    assert rings[0] == [[0.1, 0.3]]
 
 
 def test_casing_is_magnified_inward(draws):
@@ -105,7 +103,7 @@ def test_wear_is_that_of_the_speeds_asked_for(coating_map, draws):
 def test_a_campbell_diagram_has_both_models_on_both_scales(draws):
     speed = np.linspace(0, 0.4, 5)
     modes = np.sqrt(np.array([1, 9, 25])[None] + 4 * speed[:, None] ** 2)
-    for axes in draws(campbell(speed, modes, 1.01 * modes, range(1, 13), ENGINE)).axes:
+    for axes in draws(campbell(speed, modes, 1.01 * modes, range(1, 13), SCALES)).axes:
         for labels, drawn in ((("finite elements", "_fe"), modes), (("reduced model", "_rom"), 1.01 * modes)):
             lines = [line.get_ydata() for line in axes.lines if line.get_label() in labels]
             np.testing.assert_array_equal(np.transpose(lines), drawn)

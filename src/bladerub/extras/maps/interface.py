@@ -154,9 +154,8 @@ class Map(Shown):
 
     @property
     def _scales(self) -> "Scales":
-        engine = plots.scales.Engine(self.f1_hz) if self.f1_hz else None
         unit = modulus_unit(self.config) if self.config else None
-        return plots.scales.Scales(modulus_unit=unit, engine=engine)
+        return plots.scales.Scales(modulus_unit=unit, f1_hz=self.f1_hz)
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
         return "Map", {

@@ -6,16 +6,16 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from bladerub.plots import style
-from bladerub.plots.scales import Engine
+from bladerub.plots.scales import Scales
 
 _COLOURS = (style.BLUE, style.ORANGE, style.RED, style.VIOLET, style.DARK)
 
 
 @style.styled
-def stress(table: pd.DataFrame, engine: Engine) -> Figure:
+def stress(table: pd.DataFrame, scales: Scales) -> Figure:
     """Draw the stress of the last revolutions over speed and displacement, a colour for each engine order.
 
-    `table` is from `bladerub.extras.stress.table`, `engine` the rotor.
+    `table` is from `bladerub.extras.stress.table`, `scales` the blade.
     """
     figure = style.new_figure(style.PAGE, 0.55 * style.PAGE)
     over_speed, over_displacement = figure.subplots(1, 2)
@@ -30,7 +30,7 @@ def stress(table: pd.DataFrame, engine: Engine) -> Figure:
     )
     over_speed.set(xlabel=r"rotational frequency $f_\Omega$ (normalised)", ylim=(0, None))
     over_speed.set_ylabel("largest von Mises stress (MPa)")
-    engine.add_speeds(over_speed, "x")
+    scales.add_speeds(over_speed, "x")
     over_displacement.set(xlabel="amplitude at the peak (mm)", ylabel="alternating stress (MPa)")
     over_displacement.set(xlim=(0, None), ylim=(0, None))
     handles, labels = over_speed.get_legend_handles_labels()

@@ -18,7 +18,7 @@ from bladerub.io import optional
 from bladerub.io.folders import ROOT
 from bladerub.io.provenance import PREFIX, config_digest, software
 from bladerub.plots.campbell import campbell
-from bladerub.plots.scales import Engine, Scales
+from bladerub.plots.scales import Scales
 from bladerub.plots.spectrum import ORDERS, spectrum_map
 from bladerub.plots.style import RED, data_address
 from bladerub.plots.wear_map import wear_map
@@ -34,8 +34,8 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
     environment = jinja.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= vars(words)
     config, explorer = results.config, results.folder / "explorer.html"
-    engine = Engine(results.f1_hz, config.figures.nominal_speed)
-    scales = Scales(modulus_unit(config), config.blade.length, engine)
+    rotor = results.f1_hz, config.figures.nominal_speed
+    scales = Scales(modulus_unit(config), config.blade.length, *rotor)
     return environment.get_template("page.html").render(
         NONE=words.NONE,
         STRESS=STRESS,
@@ -52,16 +52,16 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
         specs={case.casing: run_spec(config, case.with_own(), 0.0) for case in results.cases.values()},
         modulus_unit=modulus_unit(config),
         degrees=math.degrees,
-        campbell=_campbell(results, engine),
+        campbell=_campbell(results, scales),
         pictures={name: _maps(results, name, scales) for name in shown},
         explorer=Path(os.path.relpath(explorer.absolute(), folder)).as_posix() if explorer.exists() else None,
     )
 
 
-def _campbell(results: Results, engine: Engine) -> str:
+def _campbell(results: Results, scales: Scales) -> str:
     """Draw the Campbell diagram with the peaks of all coatings, as SVG."""
     modes = results.campbell.pivot(index="f_omega", columns="mode") / results.f1_hz
-    figure = campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS, engine)
+    figure = campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS, scales)
     peaks = results.peaks.dropna(subset=["f_peak"])
     look = {"linestyle": "none", "marker": "o", "fillstyle": "none", "markersize": 5, "color": RED}
     figure.axes[-1].plot(peaks.f_peak, peaks.order * peaks.f_peak, label="_peaks", zorder=4, **look)
