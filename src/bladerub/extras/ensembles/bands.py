@@ -170,12 +170,15 @@ def of_findings(
     that of the draws with its verdict, and ``holds_refined`` the verdict with refined runs.
     """
     claims = [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
-    runs = plain(divergence.table(config, maps))
+    keys = ["casing", "E", "K", "theta", "law", "f_omega"]
+    runs = plain(divergence.table(config, maps)).set_index(keys)
 
     def verdicts(replacing: Sequence[CoatingMap]) -> np.ndarray:
-        study = with_runs(maps, ensembles, replacing)
-        rows = _drawn_runs(runs, plain(divergence.table(config, replacing)))
-        tables = {"peaks": peak_table.table(config, study), "divergence": rows, "rom_accuracy": rom_accuracy}
+        study, rows = with_runs(maps, ensembles, replacing), runs.copy()
+        drawn = plain(divergence.table(config, replacing)).set_index(keys)
+        rows.loc[drawn.index] = drawn
+        tables = {"peaks": peak_table.table(config, study), "divergence": rows.reset_index()}
+        tables["rom_accuracy"] = rom_accuracy
         judged = findings.judge(Evidence(config, tables, study), claims)
         return judged.set_index("id").holds.reindex(table["id"]).to_numpy()
 
@@ -186,11 +189,3 @@ def of_findings(
         share_of_draws=np.mean(agreements, axis=0) if agreements else math.nan,
         holds_refined=verdicts(refined) if refined else "",
     )
-
-
-def _drawn_runs(table: pd.DataFrame, members: pd.DataFrame) -> pd.DataFrame:
-    """Return the `table` of divergence with the rows of `members` in place of those of the same runs."""
-    keys = ["casing", "E", "K", "theta", "law", "f_omega"]
-    drawn, rows = table.set_index(keys), members.set_index(keys)
-    drawn.loc[rows.index] = rows
-    return drawn.reset_index()

@@ -182,16 +182,12 @@ def read(path: str | Path) -> Ensemble:
     try:
         shared = {name: data[name] for name in maps.DATASETS if name not in (*OVER_SPEED, "wear_node")}
         case, start = CoatingCase.described(attributes), data["start"]
-        *members, refined_runs = (
-            CoatingMap(case=case, wear_node=None, **shared, **values)
-            for values in (
-                *({name: data[name][member] for name in OVER_SPEED} for member in range(len(start))),
-                {name: data[_REFINED + name] for name in OVER_SPEED},
-            )
-        )
+        of_members = [{name: data[name][member] for name in OVER_SPEED} for member in range(len(start))]
+        of_refined = {name: data[_REFINED + name] for name in OVER_SPEED}
     except KeyError as error:
         raise DamagedFile(f"{path}: no ensembles, {error} is missing") from error
-    return Ensemble(start, tuple(members), refined_runs)
+    runs = [CoatingMap(case=case, wear_node=None, **shared, **values) for values in (*of_members, of_refined)]
+    return Ensemble(start, tuple(runs[:-1]), runs[-1])
 
 
 def _equally_long(*arrays: np.ndarray) -> list[np.ndarray]:
