@@ -4,6 +4,6 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.plots import blade_mesh
+from bladerub.plots.blade_mesh import blade_mesh
 
-outputs.save(snakemake, blade_mesh.blade_mesh(*blade_mesh.read_mesh(snakemake.input.mesh)))
+outputs.save(snakemake, blade_mesh(snakemake.input.mesh))

@@ -168,17 +168,15 @@ class Blade(Shown):
 
         `path` is to write it there as well. In the axes `ax`, which are returned, is the mesh as a whole.
         """
-        return plots.blade_mesh.blade_mesh(*plots.blade_mesh.read_mesh(self.mesh_path), path=path, ax=ax)
+        return plots.blade_mesh.blade_mesh(self.mesh_path, path=path, ax=ax)
 
     def plot_campbell(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw Fig. 2: the Campbell diagram; `path` as `plot_mesh`. Raises as `accuracy`.
 
         In the axes `ax`, which are returned, are the first mode and the engine orders.
         """
-        modes = self.accuracy().pivot(index="f_omega", columns="mode") / self.f1_hz
-        f_fe, f_rom, scales = modes["f_fe"], modes["f_rom"], plots.scales.Scales(f1_hz=self.f1_hz)
-        orders = plots.spectrum.ORDERS
-        return plots.campbell.campbell(modes.index, f_fe, f_rom, orders, scales, path=path, ax=ax)
+        scales = plots.scales.Scales(f1_hz=self.f1_hz)
+        return plots.campbell.campbell(self.accuracy(), scales, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return matrices, interface nodes and directions with units and names."""

@@ -44,29 +44,16 @@ def front_faces(polygons: np.ndarray, eye: np.ndarray = _EYE) -> np.ndarray:
     return facing[np.argsort((polygons[facing] @ eye).mean(axis=1))]
 
 
-def read_mesh(path: str | Path) -> tuple[np.ndarray, ...]:
-    """Read the arguments of `blade_mesh` from the file of a mesh; raises `OSError` if it cannot be read."""
-    mesh, _ = hdf5.read(path)
-    nodes = (mesh[f"{name}_nodes"] for name in ("interface", "root", "tip"))
-    return mesh["points"], mesh["cells"], *nodes
-
-
 @on_axes
-def blade_mesh(
-    points: np.ndarray,
-    elements: np.ndarray,
-    interface: np.ndarray,
-    root: np.ndarray,
-    tip: np.ndarray,
-    ax: Axes | None = None,
-) -> Figure:
+def blade_mesh(mesh: str | Path, ax: Axes | None = None) -> Figure:
     """Draw Fig. 1: the mesh with root and interface nodes (a), and the tip seen along the radius (b).
 
-    `points` (n, 3) are the nodes, m: x along the axis, y tangential, z along the stacking line. `elements`
-    are their nodes in the order of CalculiX's C3D20 or C3D10; without them the nodes are drawn. `interface`
-    (8,) are the interface nodes from leading to trailing edge, `tip` those of the tip face, `root` the
-    clamped ones: none where another program has left them out. Axes that are given hold (a).
+    `mesh` is the file ``mesh.h5`` of a blade. Where another program has left out the elements, the nodes are
+    drawn. Axes that are given hold (a). Raises `OSError` if the file cannot be read.
     """
+    data, _ = hdf5.read(mesh)
+    points, elements = data["points"], data["cells"]
+    interface, root, tip = (data[f"{name}_nodes"] for name in ("interface", "root", "tip"))
     millimetres, faces = 1e3 * points, boundary_faces(elements)
     if ax is not None:
         _draw_whole(ax, millimetres, faces, interface, root)

@@ -1,10 +1,11 @@
 """Campbell diagram: eigenfrequencies of the finite element model and of the reduced model over the speed."""
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bladerub.plots.scales import UNKNOWN, Scales, draw_engine_orders
+from bladerub.plots.scales import ORDERS, Scales, draw_engine_orders
 from bladerub.plots.style import DARK, ORANGE, PAGE, new_figure, on_axes
 
 _FREQUENCY = r"eigenfrequency $f\,/\,f_1(0)$"
@@ -12,33 +13,27 @@ _NUMBER = 0.045  # height of a number and what is above it, over that of the axe
 
 
 @on_axes
-def campbell(
-    f_omega: np.ndarray,
-    f_fe: np.ndarray,
-    f_rom: np.ndarray,
-    orders: range,
-    scales: Scales = UNKNOWN,
-    ax: Axes | None = None,
-) -> Figure:
-    """Draw Fig. 2: all modes (a) and the first of them, which the engine `orders` cross (b).
+def campbell(table: pd.DataFrame, scales: Scales, ax: Axes | None = None) -> Figure:
+    """Draw Fig. 2: all modes (a) and the first of them, which the engine orders cross (b).
 
-    Finite elements `f_fe` dashed on top of the reduced model `f_rom`, solid: eigenfrequencies (n, n_modes),
-    ascending, NaN where unknown, at the speeds `f_omega` (n,); all normalised. With `scales` there are speeds
-    and frequencies of the rotor besides, and its nominal speed. Axes that are given hold (b).
+    The `table` is ``campbell.csv``: the frequencies of finite elements ``f_fe``, drawn dashed on top of those
+    of the reduced model ``f_rom``, Hz, NaN where unknown. `scales` have the first frequency. Axes that are
+    given hold (b).
     """
-    modes = np.asarray(f_omega), np.asarray(f_fe), np.asarray(f_rom)
+    frequencies = table.pivot(index="f_omega", columns="mode") / scales.f1_hz
+    modes = frequencies.index.to_numpy(), *(frequencies[name].to_numpy() for name in ("f_fe", "f_rom"))
     top_of_first, top = 1.5 * float(np.nanmax(modes[2][:, 0])), 1.04 * float(np.nanmax(modes[1:]))
     if ax is not None:
-        _draw(ax, modes, orders, top_of_first, scales)
+        _draw(ax, modes, ORDERS, top_of_first, scales)
         ax.set_ylabel(_FREQUENCY)
         ax.legend(loc="lower right")
         return ax.figure
     figure = new_figure(PAGE, 0.62 * PAGE)
     all_modes, first = figure.subplots(1, 2)
-    _draw(all_modes, modes, orders[-1:], top, scales)
+    _draw(all_modes, modes, ORDERS[-1:], top, scales)
     all_modes.set_ylabel(_FREQUENCY)
     all_modes.set_title(f"(a) first {modes[2].shape[1]} modes", pad=16)
-    _draw(first, modes, orders, top_of_first, scales)
+    _draw(first, modes, ORDERS, top_of_first, scales)
     first.set_title("(b) first mode, $C_1$", pad=16)
     figure.legend(*all_modes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure

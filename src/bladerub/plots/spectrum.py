@@ -8,7 +8,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from bladerub.plots import bins, style, titles
-from bladerub.plots.scales import LARGE, UNKNOWN, Scales, draw_engine_orders, greatest
+from bladerub.plots.scales import LARGE, ORDERS, UNKNOWN, Scales, draw_engine_orders, greatest
 from bladerub.plots.style import PAGE, RED, new_figure
 from bladerub.settings.analysis import Peaks
 from bladerub.study.maps import CoatingMap
@@ -16,9 +16,6 @@ from bladerub.study.peaks import order_amplitude, peak, speed_window
 
 if TYPE_CHECKING:
     import pandas as pd
-
-ORDERS = range(1, 13)
-"""Engine orders that are drawn and labelled."""
 
 _LOOKS = (style.FIRST | {"marker": "o"}, style.SECOND | {"marker": "s"})
 _LARGE = {"marker": ">", "color": RED, "markersize": 4, "linestyle": "none", "clip_on": False, "label": LARGE}

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.io.plain import plain
-from bladerub.plots.spectrum import ORDERS
+from bladerub.plots.scales import ORDERS
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap

@@ -17,7 +17,8 @@ from bladerub.extras.explorer import coating
 from bladerub.extras.explorer.coating import mm
 from bladerub.io.optional import package
 from bladerub.io.provenance import software
-from bladerub.plots import bins, spectrum, style, titles
+from bladerub.plots import bins, style, titles
+from bladerub.plots.scales import ORDERS
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import read_manifest
 from bladerub.study.maps import CoatingMap, read_map
@@ -67,7 +68,7 @@ def build(
         "amplitude_range": mm(settings["amplitude_range"]),
         "made_by": software(),
         "amplitude_floor": mm(coating.AMPLITUDE_FLOOR),
-        "orders": list(spectrum.ORDERS),
+        "orders": list(ORDERS),
         "last_order": coating.LAST_ORDER,
         "look": _look(),
         **scales,

@@ -19,7 +19,7 @@ from bladerub.io.folders import ROOT
 from bladerub.io.provenance import PREFIX, config_digest, software
 from bladerub.plots.campbell import campbell
 from bladerub.plots.scales import Scales
-from bladerub.plots.spectrum import ORDERS, spectrum_map
+from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.style import RED, data_address
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import modulus_unit, run_spec
@@ -60,8 +60,7 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
 
 def _campbell(results: Results, scales: Scales) -> str:
     """Draw the Campbell diagram with the peaks of all coatings, as SVG."""
-    modes = results.campbell.pivot(index="f_omega", columns="mode") / results.f1_hz
-    figure = campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS, scales)
+    figure = campbell(results.campbell, scales)
     peaks = results.peaks.dropna(subset=["f_peak"])
     look = {"linestyle": "none", "marker": "o", "fillstyle": "none", "markersize": 5, "color": RED}
     figure.axes[-1].plot(peaks.f_peak, peaks.order * peaks.f_peak, label="_peaks", zorder=4, **look)
