@@ -1,7 +1,7 @@
 # Speed sweeps and long runs, compared with the study (studies/passages/README.md). Not part of `all`.
-from bladerub.extras.passages.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
+from bladerub.extras.passages.sweep_grid import DIRECTIONS, sweep_spec
 
-SWEPT = [case.name for case in swept_cases(STUDY)]
+SWEPT = [name for name in COATINGS if name in config["sweeps"]["coatings"]]
 SWEEPS = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
 RATES = [f"{rate:g}" for rate in config["sweeps"]["rates"]]
 

@@ -1,11 +1,11 @@
-"""Which coatings are swept, and how; without the solver, for the planning of the jobs."""
+"""How a coating is swept; without the solver, for the planning of the jobs."""
 
 from dataclasses import dataclass, replace
 
 from bladerub.contact.spec import RunSpec
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
-from bladerub.study.grid import CoatingCase, coating_cases, run_spec
+from bladerub.study.grid import CoatingCase, run_spec
 
 
 @dataclass(frozen=True)
@@ -19,12 +19,6 @@ class SweepSpec:
 
 
 DIRECTIONS = ("up", "down")
-
-
-def swept_cases(config: Config) -> list[CoatingCase]:
-    """List the coatings of ``sweeps.coatings`` that the study has."""
-    names = set(config.sweeps.coatings)
-    return [case for case in coating_cases(config) if case.name in names]
 
 
 def sweep_spec(config: Config, case: CoatingCase, direction: str, rate: float) -> SweepSpec:
