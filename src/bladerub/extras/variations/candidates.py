@@ -50,7 +50,7 @@ def choose(
         signs = rng.choice([-1.0, 1.0], len(plan.factors)) if neighbour else np.zeros(len(plan.factors))
         position = np.clip(positions.loc[number] + plan.candidates.shift * signs, 0.0, 1.0)
         rows.append((candidate, neighbour, number, misfits[number], *position))
-    return pd.DataFrame(rows, columns=[*_INDEX, *(factor.name for factor in plan.factors)])
+    return pd.DataFrame(rows, columns=[*_INDEX, *plan.factors])
 
 
 def as_table(plan: Plan, candidates: pd.DataFrame) -> pd.DataFrame:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.variations.plan import FEWEST
+from bladerub.extras.variations.settings import FEWEST
 from bladerub.io.optional import package
 
 openturns = package("openturns", "uq")

@@ -6,9 +6,9 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bladerub.extras.variations.factors import Factor
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.robustness import DECIDES, VERDICT
+from bladerub.extras.variations.settings import Factor
 from bladerub.extras.variations.targets import AT_LEAST, AT_MOST, TARGETS
 from bladerub.extras.variations.waves import CUTOFF
 from bladerub.plots import style
@@ -91,8 +91,8 @@ def identification(
     _draw_targets(above.subplots(), plan, measured)
     panels = below.subplots(rows, _COLUMNS, squeeze=False).ravel()
     themselves = candidates.xs(0, level="neighbour")
-    for axes, factor in zip(panels, plan.factors, strict=False):
-        _draw_range(axes, factor, points[factor.name], themselves[factor.name])
+    for axes, (name, factor) in zip(panels, plan.factors.items(), strict=False):
+        _draw_range(axes, factor, points[name], themselves[name])
     for axes in panels[len(plan.factors) :]:
         axes.set_axis_off()
     return figure
@@ -126,7 +126,7 @@ def _draw_range(axes: Axes, factor: Factor, points: pd.Series, candidates: pd.Se
     axes.plot(candidates.iloc[1:], np.full(len(candidates) - 1, 0.15), "|", color=style.BLUE, markersize=8)
     axes.axvline(candidates.iloc[0], color=style.ORANGE, linewidth=1.2)
     unit = "" if factor.unit == "1" else f" ({factor.unit})"
-    axes.set_title(f"{factor.name.replace('_', ' ')}{unit}", fontsize=8)
+    axes.set_title(f"{points.name.replace('_', ' ')}{unit}", fontsize=8)
     axes.set_xticks([0, 1], [f"{factor.first_value(end):.3g}" for end in (0.0, 1.0)])
     axes.set_yticks([])
     axes.set_xlim(0, 1)

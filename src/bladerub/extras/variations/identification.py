@@ -93,13 +93,11 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
 def ranges(plan: Plan, remainder: Remaining) -> pd.DataFrame:
     """Say what is left of the range of each factor: its own, and the middle 90 % of what is left."""
     rows = []
-    for number, factor in enumerate(plan.factors):
-        low, median, high = np.quantile(remainder.points[:, number], [0.05, 0.5, 0.95])
-        of_positions = (0.0, 1.0, low, median, high)
-        values = [factor.first_value(float(position)) for position in of_positions]
-        names = ("lowest", "highest", "left_low", "left_median", "left_high")
-        rows.append({"factor": factor.name, "unit": factor.unit, **dict(zip(names, values, strict=True))})
-    return pd.DataFrame(rows)
+    for (name, factor), positions in zip(plan.factors.items(), remainder.points.T, strict=True):
+        ends = (0.0, 1.0, *np.quantile(positions, [0.05, 0.5, 0.95]))
+        rows.append((name, factor.unit, *(factor.first_value(float(position)) for position in ends)))
+    columns = ["factor", "unit", "lowest", "highest", "left_low", "left_median", "left_high"]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def exclusions(verdicts: pd.DataFrame) -> pd.DataFrame:

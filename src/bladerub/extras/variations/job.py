@@ -19,7 +19,6 @@ from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
 from bladerub.config.files import Located
 from bladerub.extras.small_study import conduct
-from bladerub.extras.variations.factors import lay_over
 from bladerub.extras.variations.plan import Job, Part, Plan
 from bladerub.extras.variations.targets import measure
 from bladerub.extras.variations.waves import known
@@ -70,7 +69,7 @@ def cases(
         if name in positions:
             config = configuration.vary(study, *part.study)
             if positions[name] is not None:
-                config = lay_over(config, plan.factors, positions[name])
+                config = plan.lay_over(config, positions[name])
             small_studies.append(Case(name, part, config))
     return small_studies
 

@@ -31,9 +31,9 @@ def design(plan: Plan) -> pd.DataFrame:
     """List what each factor sets in each sample: a row for each number of the config."""
     return pd.DataFrame(
         [
-            {"sample": number, "factor": factor.name, "key": key, "value": value, "unit": factor.unit}
+            {"sample": number, "factor": name, "key": key, "value": value, "unit": factor.unit}
             for number, row in enumerate(waves.design(plan))
-            for factor, position in zip(plan.factors, row, strict=True)
+            for (name, factor), position in zip(plan.factors.items(), row, strict=True)
             for key, value in factor.values(float(position)).items()
         ]
     )
@@ -61,8 +61,8 @@ def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
             if np.isnan(estimate.predicted):
                 continue
             rows += [
-                (id_, output, factor.name, estimate.first[number], estimate.total[number], estimate.predicted)
-                for number, factor in enumerate(plan.factors)
+                (id_, output, factor, first, total, estimate.predicted)
+                for factor, first, total in zip(plan.factors, estimate.first, estimate.total, strict=True)
             ]
     return pd.DataFrame(rows, columns=INDICES)
 

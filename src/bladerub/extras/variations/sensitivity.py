@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.extras.variations.emulator import folds
-from bladerub.extras.variations.plan import FEWEST
+from bladerub.extras.variations.settings import FEWEST
 from bladerub.io.optional import package
 
 openturns = package("openturns", "uq")

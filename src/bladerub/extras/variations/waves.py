@@ -72,18 +72,16 @@ def first(plan: Plan, study: Config) -> np.ndarray:
 
 def as_table(plan: Plan, number: int, drawn: np.ndarray) -> pd.DataFrame:
     """Make the table of the sets `drawn` (n, d), numbered from `number`, with `POSITIONS`."""
-    names = [factor.name for factor in plan.factors]
+    names = list(plan.factors)
     numbers = np.repeat(np.arange(number, number + len(drawn)), len(names))
     return pd.DataFrame({"set": numbers, "factor": names * len(drawn), "range_fraction": np.ravel(drawn)})
 
 
 def with_values(plan: Plan, table: pd.DataFrame) -> pd.DataFrame:
     """Add to a table with `POSITIONS` the first number that each factor sets, and its unit."""
-    by_name = {factor.name: factor for factor in plan.factors}
-    factors = [by_name[name] for name in table.factor]
-    positions = zip(factors, table.range_fraction, strict=True)
-    values = [factor.first_value(position) for factor, position in positions]
-    return table.assign(value=values, unit=[factor.unit for factor in factors])
+    positions = zip(table.factor, table.range_fraction, strict=True)
+    values = [plan.factors[name].first_value(position) for name, position in positions]
+    return table.assign(value=values, unit=[plan.factors[name].unit for name in table.factor])
 
 
 def read(paths: Iterable[str | Path], index: str | list[str] = "set") -> pd.DataFrame:

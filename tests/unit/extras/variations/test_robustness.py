@@ -9,17 +9,17 @@ from bladerub.config.read import vary
 from bladerub.extras.variations import candidates, identification, job, waves
 from bladerub.extras.variations import robustness as summary
 from bladerub.extras.variations.emulator import Emulator, compared, held_out
-from bladerub.extras.variations.factors import Factor, lay_over
 from bladerub.extras.variations.figures import robustness
 from bladerub.extras.variations.plan import Part, Plan
-from bladerub.extras.variations.settings import CandidateSettings
+from bladerub.extras.variations.settings import CandidateSettings, Factor
 from bladerub.extras.variations.targets import AT_LEAST, AT_MOST, EQUAL, TARGETS, Target
 from bladerub.extras.variations.verdicts import verdicts as marks_of
 
-UNIT = Factor("unit", "Pa", {"contact.modulus_unit": (1e8, 1e10)}, logarithmic=True)
-IDLE = Factor("idle", "1", {"contact.damping_ratio": (0.0, 1.0), "contact.tip_profile.half_width": (0, 2)})
+UNIT = Factor(unit="Pa", sets={"contact.modulus_unit": [1e8, 1e10]}, scale="log")
+OF_IDLE = {"contact.damping_ratio": [0.0, 1.0], "contact.tip_profile.half_width": [0, 2]}
+FACTORS = {"unit": UNIT, "idle": Factor(unit="1", sets=OF_IDLE)}
 LOBES = {"lobes": Part("lobes", (Located({}, UNKNOWN),), ("C2", "C3"), 64)}
-PLAN = Plan(LOBES, (UNIT, IDLE), seed=1, waves=(64,))
+PLAN = Plan(LOBES, FACTORS, seed=1, waves=(64,))
 
 
 OF_C3A = [number for number in range(64) if number % 3 and number > 5]  # samples that can tell of C3a
@@ -74,9 +74,9 @@ def test_the_factor_that_decides_shares_and_cost_of_each_claim_and_the_design_ar
     assert value["contact.tip_profile.half_width"] == doubled
 
 
-DEPTHS = {"casings.2nd.interference": (2e-3, 6e-3), "casings.2nd5nd.interference": (3e-3, 7e-3)}
-DEPTH = Factor("depth", "m", DEPTHS)
-TURNS = Factor("turns", "1", {"contact.tip_turns": (0.0, 1.0)}, multiple_of=1.0)
+DEPTHS = {"casings.2nd.interference": [2e-3, 6e-3], "casings.2nd5nd.interference": [3e-3, 7e-3]}
+DEPTH = Factor(unit="m", sets=DEPTHS)
+TURNS = Factor(unit="1", sets={"contact.tip_turns": [0.0, 1.0]}, multiple_of=1.0)
 CASINGS = {"2nd": {"interference": 5e-3}, "2nd5nd": {"interference": 4e-3}}
 STUDY = changed(CONFIG, contact={"modulus_unit": 1e9, "tip_turns": False}, casings=CASINGS)
 
@@ -85,8 +85,9 @@ def test_factors_set_numbers_and_switches_and_own_values_lie_at_their_fraction_o
     for factor, fraction in ((UNIT, 0.5), (DEPTH, 0.75), (TURNS, 0.0)):
         assert factor.position(factor.own(STUDY)) == pytest.approx(fraction)
         assert factor.first_value(fraction) == pytest.approx(factor.own(STUDY))
+    plan = Plan({}, {"unit": UNIT, "depth": DEPTH, "turns": TURNS})
     for position, turns in ((0.49, False), (0.51, True)):
-        varied = lay_over(vary(STUDY), (UNIT, DEPTH, TURNS), (1.0, 0.25, position)).plain()
+        varied = plan.lay_over(vary(STUDY), (1.0, 0.25, position)).plain()
         assert varied["contact"]["modulus_unit"] == pytest.approx(1e10)
         assert varied["contact"]["tip_turns"] is turns
     assert varied["casings"]["2nd"]["interference"] == pytest.approx(3e-3)
@@ -148,12 +149,12 @@ EMPTY = Located.of({}, UNKNOWN)
 
 @pytest.fixture
 def plan():
-    unit = Factor("unit", "Pa", {"contact.modulus_unit": (2e8, 1e9)})
-    hub = Factor("hub", "m", {"blade.hub_radius": (0.3, 0.6)})
+    unit = Factor(unit="Pa", sets={"contact.modulus_unit": [2e8, 1e9]})
+    hub = Factor(unit="m", sets={"blade.hub_radius": [0.3, 0.6]})
     peaks, finer = Part("peaks", (EMPTY,), ("C4",)), Part("candidates", (EMPTY,))
     best = CandidateSettings(number=2, neighbours=3, shift=0.02, study={})
     chosen = {"sets": {"soft": {"unit": 2e8}}, "candidates": best, "finer": finer}
-    return Plan({"peaks": peaks}, (unit, hub), seed=5, waves=(32, 8), remaining=0.01, **chosen)
+    return Plan({"peaks": peaks}, {"unit": unit, "hub": hub}, seed=5, waves=(32, 8), remaining=0.01, **chosen)
 
 
 @pytest.fixture
