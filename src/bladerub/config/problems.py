@@ -24,8 +24,10 @@ NOT_KNOWN = "of this study, which is not known"
 _RELATIONS = {"at most": operator.le, "below": operator.lt, "at least": operator.ge, "above": operator.gt}
 
 
-def problems(values: Mapping[str, Any], kind: Any = None) -> Iterator[str]:
-    """Yield a line for each problem of a config, or of the values of another model, `kind`.
+def problems(
+    values: Mapping[str, Any], kind: Any = None, study: Mapping[str, Any] | None = None
+) -> Iterator[str]:
+    """Yield a line for each problem of a config, or of the values of another model, `kind`, for a `study`.
 
     Numbers that other keys limit are compared where both parts of the config are as they must be.
     """
@@ -39,7 +41,7 @@ def problems(values: Mapping[str, Any], kind: Any = None) -> Iterator[str]:
     yield from lines
     broken = set(map(top_key, lines))
     valid = {name: value for name, value in values.items() if name not in broken}
-    yield from _compared(valid, key, valid, ())
+    yield from _compared(valid if study is None else study, key, valid, ())
 
 
 def checked_quantity(value: Any, kind: Any, hint: bool = True) -> float:

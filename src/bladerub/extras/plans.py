@@ -20,7 +20,8 @@ def read_plan(path: str | Path, kind: Any, key: str | None = None, study: Config
     `bladerub.config.files.compose`, and with every problem found.
     """
     plan, _ = converted(files.read(path, key), kind, study)
-    texts, locations = dict.fromkeys(problems(plan.plain(), kind)), plan.locations()
+    of_study = study and study.plain()
+    texts, locations = dict.fromkeys(problems(plan.plain(), kind, of_study)), plan.locations()
     if texts:
         raise ConfigError(Problem(location_of(text, locations, plan.location), text) for text in texts)
     return plan

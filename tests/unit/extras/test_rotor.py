@@ -1,3 +1,4 @@
+from collections import Counter
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,11 +16,11 @@ CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 
 def test_draws_are_those_of_their_number_whatever_the_others_and_a_plan_may_have_units(config, tmp_path):
     plan = read_plan(ROOT / "config" / "rotor.yaml", config)
-    name = Combination(CASE, 0.346, 4, 5e-5, 0.005).name
-    runs = plan.runs(config, name).runs
+    combination = Combination(CASE, 0.346, 4, 5e-5, 0.005)
+    runs = plan.runs(config, combination.name).runs
     assert not any(run.follow for run in runs)
     assert runs[0].n_blades == 4
-    assert len(runs) == plan.draws[name]
+    assert len(runs) == plan.draws[combination]
     assert len({run.determinants for run in runs}) == len(runs)
     twice = plan.row(Combination(CASE, 0.346, 4, 1e-4, 0.005), 7)
     for one, other in zip(runs[7].row.blades, twice.blades, strict=True):
@@ -52,7 +53,7 @@ def test_the_distribution_of_known_draws():
 
 def test_rows_that_leave_the_limit_before_the_first_look_are_counted(config, monkeypatch):
     monkeypatch.setattr(pattern, "simulate_row", lambda *described: SimpleNamespace(unbounded=(1,)))
-    plan = Plan(1, {}, {}, (), (), Patterns(4, 2, {Combination(CASE, 0.346, 4, 5e-5): 3}))
+    plan = Plan(1, Counter(), Counter(), Patterns(4, 2, {Combination(CASE, 0.346, 4, 5e-5): 3}))
     (drift,) = pattern.drifts(pattern.table(config, None, plan)).to_dict("records")
     assert (drift["rows"], drift["followed_rows"]) == (3, 0)
     assert np.isnan(drift["pattern_drift_median"])

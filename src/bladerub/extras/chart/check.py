@@ -10,6 +10,7 @@ from bladerub.extras.chart.search import next_speeds, sought
 from bladerub.extras.chart.table import COATING
 from bladerub.settings.study import Config
 from bladerub.study.maps import CoatingMap
+from bladerub.study.peaks import maximum
 
 
 def table(config: Config, maps: Iterable[CoatingMap]) -> pd.DataFrame:
@@ -26,19 +27,14 @@ def table(config: Config, maps: Iterable[CoatingMap]) -> pd.DataFrame:
         while pending := next_speeds(computed, curves.values(), share):
             computed[pending] = True
         for quantity, curve in curves.items():
-            if not np.isfinite(np.where(computed, curve, np.nan)).any():
+            highest, peak = maximum(coating, np.where(computed, curve, np.nan)), maximum(coating, curve)
+            if np.isnan(highest.amplitude):
                 continue  # no run with a spectrum, so nothing to find
-            index, best = int(np.nanargmax(np.where(computed, curve, np.nan))), int(np.nanargmax(curve))
             rows.append(
                 {name: getattr(coating.case, name) for name in COATING}
-                | {
-                    "quantity": quantity,
-                    "found": curve[index],
-                    "f_found": coating.f_omega[index],
-                    "greatest": curve[best],
-                    "f_greatest": coating.f_omega[best],
-                    "missed": 1 - curve[index] / curve[best],
-                }
+                | {"quantity": quantity, "found": highest.amplitude, "f_found": highest.f_omega}
+                | {"greatest": peak.amplitude, "f_greatest": peak.f_omega}
+                | {"missed": 1 - highest.amplitude / peak.amplitude}
             )
     return pd.DataFrame(rows)
 

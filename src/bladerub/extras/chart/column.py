@@ -1,5 +1,6 @@
 """The job of one column of the chart: every point that is missing or stale, and the rows of its manifest."""
 
+import itertools
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
@@ -94,17 +95,17 @@ def compute_missing(
     """
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     solver = solver_of(config)
+    solve = partial(solver.simulate_many, blade, threads=threads if solver.wants_many else 1, report=report)
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
-    entries, runs_keys, searches, checksums = {}, {}, {}, {}
+    entries, runs_keys, searches = {}, {}, {}
     for case, planned in plan.items():
         key = digest([planned, blade_digest])
         entries[case] = Entry(folder / f"{case.name}.h5", key, points.MEASURES.keys(), points.KEY)
         runs_keys[case] = digest([run_determinants(config, case, speeds), blade_digest])
 
-    def compute_alone(case: CoatingCase) -> tuple[points.ChartPoint, float]:
+    def computed(cases: Sequence[CoatingCase]) -> tuple[list[tuple[CoatingCase, points.ChartPoint]], float]:
         start = time.monotonic()
-        ((_, point),) = compute({case: searches[case]}, partial(solver.simulate_many, blade))
-        return point, start
+        return list(compute({case: searches[case] for case in cases}, solve)), time.monotonic() - start
 
     with lock.held(column_lock, lambda: report("another job is at work on this column: waiting for its end")):
         missing = [case for case, entry in entries.items() if not entry.fetch()]
@@ -113,24 +114,15 @@ def compute_missing(
         for case in missing:
             earlier = points.read_of(entries[case].path, runs_keys[case])
             searches[case] = search(config, case, blade, speeds, C1, earlier)
-        if solver.wants_many:
-            together = partial(solver.simulate_many, blade, threads=threads, report=report)
-            start = time.monotonic()
-            results = ((case, (point, start)) for case, point in compute(searches, together))
-        else:
-            results = each_done(compute_alone, searches, threads)
-        for number, (case, (point, start)) in enumerate(results, 1):
-            entry = entries[case]
-            entry.make_room()
-            checksums[case] = points.write(entry.path, point, entry.key, runs_keys[case], config)
-            seconds = time.monotonic() - start
-            report(f"[{number}/{len(searches)}] {case.name}: {point.known.sum()} runs in {seconds:.1f} s")
+        parts = [missing] if solver.wants_many else [[case] for case in missing]
+        number = itertools.count(1)
+        for _, (results, seconds) in each_done(computed, parts, 1 if solver.wants_many else threads):
+            for case, point in results:
+                entries[case].make_room()
+                points.write(entries[case].path, point, entries[case].key, runs_keys[case], config)
+                runs = f"{point.known.sum()} runs in {seconds:.1f} s"
+                report(f"[{next(number)}/{len(missing)}] {case.name}: {runs}")
         return [
-            PointRow(
-                entry.path.name,
-                entry.key,
-                entry.path.stat().st_size,
-                checksums.get(case) or file_checksum(entry.path),
-            )
-            for case, entry in entries.items()
+            PointRow(entry.path.name, entry.key, entry.path.stat().st_size, file_checksum(entry.path))
+            for entry in entries.values()
         ]

@@ -127,8 +127,8 @@ class ChartPoint:
         return np.isfinite(self.measures["revolutions"])
 
 
-def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: Config) -> str:
-    """Write `point` to `path` under its `key`, whole or not at all; return the checksum of the file.
+def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: Config) -> None:
+    """Write `point` to `path` under its `key`, whole or not at all.
 
     `runs_key` is that of its runs, whichever of their speeds the search chose.
     """
@@ -140,7 +140,7 @@ def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: 
         for name, (unit, long_name) in described.items()
     }
     about = asdict(point.case) | {KEY: key, RUNS_KEY: runs_key}
-    return hdf5.write(path, variables, about, provenance(config.plain()))
+    hdf5.write(path, variables, about, provenance(config.plain()))
 
 
 def read(path: str | Path) -> ChartPoint:

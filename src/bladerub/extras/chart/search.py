@@ -15,7 +15,6 @@
 
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
-from typing import NamedTuple
 
 import numpy as np
 
@@ -80,7 +79,7 @@ def search(
     )
     analysis, share = config.analysis, config.chart.speeds.refine_above
     pending = np.flatnonzero(speeds.coarse).tolist()
-    ends: list[_End] = []
+    uniform: dict[int, tuple[RunSpec, np.ndarray, str]] = {}  # what tells whether runs diverge
     while pending:
         to_run = [index for index in pending if not _taken_over(point, earlier, index)]
         specs = [run_spec(config, case, point.f_omega[index]) for index in to_run]
@@ -89,9 +88,17 @@ def search(
             for name, value in _measured(analysis, blade, spec, result).items():
                 point.measures[name][index] = value
             if point.uniform[index]:
-                ends.append(_End(index, spec, result.revolution_amplitude, result.status))
+                uniform[index] = spec, result.revolution_amplitude, result.status
         pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
-    yield from _judge(analysis, point, ends)
+    settings = analysis.divergence
+    growing = [index for index, (_, *end) in uniform.items() if needs_confirmation(*end, settings)]
+    confirmations = yield [confirmation_spec(uniform[index][0], settings) for index in growing]
+    longer = {
+        index: result.revolution_amplitude for index, result in zip(growing, confirmations, strict=True)
+    }
+    for index, (_, *end) in uniform.items():
+        verdict = judge(*end, settings, longer.get(index))
+        point.measures["divergent"][index] = float(verdict.divergent)
     return point
 
 
@@ -158,27 +165,3 @@ def _measured(analysis: Analysis, blade: ReducedBlade, spec: RunSpec, result: Ru
         "revolutions": result.n_steps * result.time_step * spec.f_omega * blade.f1_hz,
         **{f"energy_{name}": getattr(result.energy, name) for name in ("damping", "wear", "sliding")},
     }
-
-
-class _End(NamedTuple):
-    """What tells whether a run diverges."""
-
-    index: int  # of its speed
-    spec: RunSpec
-    amplitude: np.ndarray  # of each revolution, m
-    status: str
-
-
-def _judge(
-    analysis: Analysis, point: ChartPoint, ends: Sequence[_End]
-) -> Generator[list[RunSpec], list[RunResult], None]:
-    """Judge whether runs diverge, and put it into `point`; ask for the longer runs of those that grow."""
-    settings = analysis.divergence
-    growing = [end for end in ends if needs_confirmation(end.amplitude, end.status, settings)]
-    confirmations = yield [confirmation_spec(end.spec, settings) for end in growing]
-    longer = {
-        end.index: result.revolution_amplitude for end, result in zip(growing, confirmations, strict=True)
-    }
-    for end in ends:
-        verdict = judge(end.amplitude, end.status, settings, longer.get(end.index))
-        point.measures["divergent"][end.index] = float(verdict.divergent)

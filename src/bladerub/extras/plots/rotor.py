@@ -28,7 +28,7 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
     one.
     """
     groups: dict[tuple, list] = {}
-    for combination in (plan.combinations[name] for name in plan.compared):
+    for combination in plan.compared:
         if combination.blades > 1 or combination != combination.alone:
             groups.setdefault((combination.case, combination.f_omega), []).append(combination)
     if not groups:
@@ -97,7 +97,7 @@ def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
     A column of panels for each coating of the sweeps of `plan`; `table` as of `rotor`.
     """
     groups: dict[CoatingCase, list[Combination]] = {}
-    for combination in (plan.combinations[name] for name in plan.swept):
+    for combination in plan.swept:
         groups.setdefault(combination.case, []).append(combination)
     figure = new_figure(max(PAGE, 1.7 * len(groups) + 0.8), 4.6)
     panels = figure.subplots(2, len(groups), sharex=True, sharey="row", squeeze=False, height_ratios=(3, 2))

@@ -1,8 +1,10 @@
 """The plan of rows: groups of combinations, each with draws of its blades."""
 
 import itertools
-from collections.abc import Collection, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -49,23 +51,30 @@ class Patterns:
 
     harmonic: int  # lobes of the pattern
     interval: int  # revolutions between two looks at the wear
-    draws: dict[Combination, int]  # number of them
+    draws: Mapping[Combination, int]  # number of them
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A plan as read: combinations by name, each with the number of its draws.
+    """A plan as read: the combinations of its groups and of its sweeps, with the number of their draws.
 
-    `compared` and `swept` are the combinations of its groups and of its sweeps, by name. `patterns` have
-    combinations of their own.
+    `patterns` have combinations of their own.
     """
 
     seed: int
-    combinations: dict[str, Combination]
-    draws: dict[str, int]
-    compared: tuple[str, ...]
-    swept: tuple[str, ...]
+    compared: Counter[Combination]
+    swept: Counter[Combination]
     patterns: Patterns | None = None
+
+    @cached_property
+    def draws(self) -> Counter[Combination]:
+        """Number of draws of each combination that has runs."""
+        return self.compared | self.swept
+
+    @cached_property
+    def combinations(self) -> dict[str, Combination]:
+        """Those combinations by their names."""
+        return {combination.name: combination for combination in self.draws}
 
     def row(self, combination: Combination, draw: int) -> Row:
         """Draw the blades of one row of a combination."""
@@ -78,7 +87,7 @@ class Plan:
         spec = run_spec(config, combination.case, combination.f_omega)
         runs = [
             planned_run(config, spec, f"{draw:04d}.h5", False, self.row(combination, draw), follow=False)
-            for draw in range(self.draws[name])
+            for draw in range(self.draws[combination])
         ]
         return CoatingPlan(combination.case, tuple(runs))
 
@@ -99,26 +108,24 @@ def read_plan(path: str | Path, config: Config) -> Plan:
     """
     located = plans.read_plan(path, RotorPlan, study=config)
     plan = RotorPlan.model_validate(located.plain())
-    followed_groups = plan.patterns.groups if plan.patterns else {}
-    sections = {"groups": plan.groups, "sweeps": plan.sweeps or {}, "patterns.groups": followed_groups}
-    pairs: dict[str, list[tuple[Combination, int]]] = {}
+    of_patterns = plan.patterns.groups if plan.patterns else {}
+    sections = {"groups": plan.groups, "sweeps": plan.sweeps or {}, "patterns.groups": of_patterns}
+    draws: dict[str, Counter[Combination]] = {section: Counter() for section in sections}
     by_name: dict[str, Combination] = {}
     for section, groups in sections.items():
-        pairs[section] = []
         for name, group in groups.items():
-            members = list(_combinations_of(group))
-            if problem := _problem(group, config) or _same_name(members, by_name):
-                key = f"{section}.{name}"
-                raise ConfigError.at(located.locations()[key], f"{key}.{problem}")
-            pairs[section] += members
-    followed = dict(pairs.pop("patterns.groups"))
-    combinations, draws = {}, {}
-    for combination, n in itertools.chain(*pairs.values()):
-        combinations[combination.name] = combination
-        draws[combination.name] = max(n, draws.get(combination.name, 0))
-    names = (dict.fromkeys(combination.name for combination, _ in members) for members in pairs.values())
+            members = Counter(dict(_combinations_of(group)))
+            for combination in members:
+                first = by_name.setdefault(combination.name, combination)
+                if first != combination:
+                    speeds = f"{first.f_omega:g} and {combination.f_omega:g}"
+                    key = f"{section}.{name}.f_omega"
+                    text = f"{key}: {speeds} would both be {combination.name}; leave one out"
+                    raise ConfigError.at(located.locations()[key], text)
+            draws[section] |= members
+    compared, swept, followed = draws.values()
     patterns = Patterns(plan.patterns.harmonic, plan.patterns.interval, followed) if followed else None
-    return Plan(plan.seed, combinations, draws, *map(tuple, names), patterns)
+    return Plan(plan.seed, compared, swept, patterns)
 
 
 def _combinations_of(group: Group) -> Iterator[tuple[Combination, int]]:
@@ -129,26 +136,6 @@ def _combinations_of(group: Group) -> Iterator[tuple[Combination, int]]:
         differ = combination.length_scatter or combination.frequency_scatter
         yield combination.alone, 1
         yield combination, group.draws if differ else 1
-
-
-def _problem(group: Group, config: Config) -> str | None:
-    """Say which key of a group the study does not have, with what would be right."""
-    if group.casing not in config.casings:
-        return f'casing = "{group.casing}": must be one of the casings, {", ".join(config.casings)}'
-    fastest, highest = max(group.f_omega), config.reduction.f_omega_max
-    if fastest > highest:
-        return f"f_omega: {fastest:g}: must be at most reduction.f_omega_max = {highest:g}"
-    return None
-
-
-def _same_name(members: list[tuple[Combination, int]], by_name: dict[str, Combination]) -> str | None:
-    """Enter the combinations of a group in `by_name`; say which would share the folder of another."""
-    for combination, _ in members:
-        first = by_name.setdefault(combination.name, combination)
-        if first != combination:
-            speeds = f"{first.f_omega:g} and {combination.f_omega:g}"
-            return f"f_omega: {speeds} would both be {combination.name}; leave one out"
-    return None
 
 
 def described(combination: Combination) -> dict[str, Any]:

@@ -39,16 +39,13 @@ def draws(plan: Plan, folder: str | Path, analysis: Analysis) -> pd.DataFrame:
     Lobes are counted and growth is judged by ``config.analysis``. Raises `OSError`, naming the file, if a
     run is missing or damaged.
     """
-    single_amplitude: dict[str, float] = {}
+    single: dict[Combination, float] = {}  # amplitudes of single nominal blades, which are read first
     rows = []
-    for name in sorted(plan.combinations, key=lambda name: plan.combinations[name].blades):
-        combination = plan.combinations[name]
-        runs = Path(folder) / name
+    for combination in sorted(plan.draws, key=lambda combination: combination.blades):
+        runs = Path(folder) / combination.name
         for draw, listed in enumerate(read_manifest(runs / "manifest.tsv")):
             of_draw = _measure(runs / listed.file, analysis)
-            if combination == combination.alone:
-                single_amplitude[name] = of_draw["row_amplitude"]
-            nominal = single_amplitude[combination.alone.name]
+            nominal = single.setdefault(combination.alone, of_draw["row_amplitude"])
             of_draw["amplification"] = of_draw["row_amplitude"] / nominal
             of_draw["longest_amplification"] = of_draw.pop("longest_amplitude") / nominal
             rows.append(described(combination) | {"draw": draw} | of_draw)

@@ -88,9 +88,9 @@ def _rows(config: "Config", path: Path) -> "list[StudyRun]":
 
     plan = read_plan(path, config)
     return [
-        StudyRun(combination.case, combination.f_omega, plan.row(combination, draw), f"{name}/{draw:04d}")
-        for name, combination in plan.combinations.items()
-        for draw in range(plan.draws[name])
+        StudyRun(member.case, member.f_omega, plan.row(member, draw), f"{member.name}/{draw:04d}")
+        for member, draws in plan.draws.items()
+        for draw in range(draws)
     ]
 
 

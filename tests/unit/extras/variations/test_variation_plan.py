@@ -108,7 +108,9 @@ def test_a_wrong_entry_of_a_plan_or_a_factor_of_no_number_is_refused_with_its_pl
             configs_of(config, plan, "soft/0")
         (problem,) = caught.value.problems
         assert problem.text.startswith(f"factors.unit.sets.{path}")
-        assert problem.location.line in {line for at, (_, line) in plan.locations.items() if "unit.sets" in at}
+        assert problem.location.line in {
+            line for at, (_, line) in plan.locations.items() if "unit.sets" in at
+        }
 
 
 def test_only_what_determines_a_sample_is_a_reason_to_run_it(config, make):
