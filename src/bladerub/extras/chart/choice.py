@@ -45,9 +45,7 @@ def pareto(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
 def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
     """Recommend for each θ the coating with the lowest displacement of those that break the fewest limits.
 
-    How sure that is shows in the coatings next to it on the chart, eight or fewer. If
-    most of them are not safe, or their displacements spread far, another sample of the coating may not be as
-    good; what lies between the moduli below and above (NaN: the end of the chart) was not computed.
+    How sure that is shows in its neighbours on the chart, eight or fewer (studies/chart/README.md).
     """
     judged = chart.assign(broken=broken_limits(chart, limits).sum(axis=1))
     judged["safe"] = judged["broken"] == 0

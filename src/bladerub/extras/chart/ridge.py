@@ -7,7 +7,6 @@
 """
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -48,15 +47,14 @@ def table(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
 
 def _peaks(config: Config, points: list[ChartPoint], multiple: int) -> pd.DataFrame:
     """Y_k of each point from its runs at speeds `multiple` steps of the study apart; NaN without any."""
-    rows = []
+    rows, settings = [], config.analysis.peaks
     for point in points:
         first = point.f_omega[np.abs(point.f_omega - config.chart.speeds.start).argmin()]
         steps = (point.f_omega - first) / (config.speeds.step * multiple)
         even = (np.abs(steps - np.rint(steps)) < 1e-6) | (multiple == 1)
-        subset = replace(point, spectrum_amplitude=np.where(even[:, None], point.spectrum_amplitude, np.nan))
         case = point.case
         for order in chart_orders(config):
-            peak = maximum(subset, amplitude_in_window(subset, order, config.analysis.peaks))
+            peak = maximum(point, np.where(even, amplitude_in_window(point, order, settings), np.nan))
             rows.append((case.casing, case.theta, order, case.E, case.K, peak.f_omega, peak.amplitude))
     return pd.DataFrame(rows, columns=[*_SURFACE, "E", "K", "f_peak", "amplitude"])
 
@@ -81,27 +79,17 @@ def _ridge(peaks: pd.DataFrame) -> pd.DataFrame:
 def summary(ridges: pd.DataFrame) -> pd.DataFrame:
     """Sum up for each casing, θ, order and speed step how certain the ridge along E of `table` is.
 
-    Place and height of the highest point on the ridge; ``lowest_E_T`` and ``highest_E_T`` of the ridge;
-    medians over the ridge of ``neighbour_spread``, the range of the neighbours over the height, of
-    ``height_lost`` against the finest step, relative, and of ``K_shift``, the factor between K and that of
-    the finest step.
+    A row each, with `SUMMARY`: the highest point on the ridge, and medians over the ridge.
     """
-    rows = []
-    for surface, ridge in ridges[ridges.along == "E"].groupby(_SURFACE):
-        finest = ridge[ridge.speed_step == ridge.speed_step.min()].set_index("E")
-        for step, line in ridge.groupby("speed_step"):
-            line, top = line.set_index("E"), line.loc[line.amplitude.idxmax()]
-            spread = (line.highest_neighbour - line.lowest_neighbour) / line.amplitude
-            rows.append(
-                {
-                    **dict(zip(_SURFACE, surface, strict=True)),
-                    "speed_step": step,
-                    **{name: top[name] for name in ("E", "K", "E_T", "f_peak", "amplitude")},
-                    "lowest_E_T": line.E_T.min(),
-                    "highest_E_T": line.E_T.max(),
-                    "neighbour_spread": spread.median(),
-                    "height_lost": (1 - line.amplitude / finest.amplitude).median(),
-                    "K_shift": np.exp(np.abs(np.log(line.K / finest.K)).median()),
-                }
-            )
-    return pd.DataFrame(rows, columns=SUMMARY)
+    along_E, line = ridges[ridges.along == "E"], [*_SURFACE, "speed_step"]
+    finest = along_E[along_E.speed_step == along_E.speed_step.min()]
+    along_E = along_E.merge(finest, "left", on=[*_SURFACE, "E"], suffixes=("", "_finest"))
+    along_E["neighbour_spread"] = (along_E.highest_neighbour - along_E.lowest_neighbour) / along_E.amplitude
+    along_E["height_lost"] = 1 - along_E.amplitude / along_E.amplitude_finest
+    along_E["K_shift"] = np.abs(np.log(along_E.K / along_E.K_finest))
+    lines = along_E.groupby(line)
+    summed = lines[["neighbour_spread", "height_lost", "K_shift"]].median()
+    summed["K_shift"] = np.exp(summed["K_shift"])
+    summed[["lowest_E_T", "highest_E_T"]] = lines.E_T.agg(["min", "max"])
+    highest = along_E.loc[lines.amplitude.idxmax(), [*line, "E", "K", "E_T", "f_peak", "amplitude"]]
+    return highest.merge(summed, on=line)[SUMMARY]

@@ -46,8 +46,7 @@ def contact_stiffness(E: float, K: float) -> float:
 def explanation(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
     """Look at the run at the peak of each engine order.
 
-    A row per point and order: `COATING`, ``order``, ``E_T``, ``f_crossing``, ``f_peak``, ``amplitude`` (m),
-    ``lobes`` and each of `LOSSES` as ``<loss>_per_cycle`` (J), the mean over the run, in which a vibration on
+    A row per point and order, with `EXPLANATION`. Energies are means over the run, in which a vibration on
     the order k has k cycles per revolution. Without a peak all but ``E_T`` and ``f_crossing`` is NaN.
     """
     rows = []
@@ -85,12 +84,9 @@ def share(blade: ReducedBlade, theta: float, f_omega: float) -> float:
 def table(peaks: pd.DataFrame, blade: ReducedBlade) -> pd.DataFrame:
     """Sum up how closely f_k follows each of `MODULI`, and how θ changes it, from `peaks` of `explanation`.
 
-    A row per order and θ: ``coatings``, the number of those in `is_stiffened`, to which the other columns
-    refer; ``below_crossing``, the number of the others; for each of `MODULI` the rank correlation
-    ``rank_correlation_<modulus>``, and ``scatter_<modulus>``, the root mean square distance of f_k from the
-    nearest curve that nowhere falls with the modulus; ``modulus_ratio``, E_T over that of the first θ at the
-    same f_k (medians at each f_k that both have, the median of these ratios) where stiffening is `SMALL`, and
-    ``modulus_ratio_by_share``, the ratio expected from `share`.
+    A row per order and θ; all columns but ``below_crossing`` are of the coatings in `is_stiffened`.
+    ``modulus_ratio`` is the median of those at each f_k that both θ have where stiffening is `SMALL`,
+    ``modulus_ratio_by_share`` is the ratio expected from `share`.
     """
     rows = []
     for order, of_order in peaks.groupby("order"):

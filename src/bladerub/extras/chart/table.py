@@ -32,16 +32,15 @@ def read_points(manifests: Iterable[str | Path]) -> Iterator[ChartPoint]:
 def table(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
     """Sum up every point.
 
-    A row per point: `COATING`, Y_k in m and f_k for each engine order of the chart, the greatest displacement
-    ``peak`` and its speed, the greatest worn volume and depth over the speeds, the shares of the uniform
-    speeds that diverge and that exceed the displacement limit, and the number of runs. A missing peak is NaN.
+    A row per point: `COATING`, Y_k and f_k for each engine order of the chart, the greatest of the measures
+    over the speeds, shares of the uniform speeds, and the number of runs. A missing peak is NaN.
     """
     rows, orders = [], chart_orders(config)
     for point in points:
         measures, row = point.measures, {name: getattr(point.case, name) for name in COATING}
         for order in orders:
-            order_peak = peak(point, order, config.analysis.peaks)
-            row |= {f"Y{order}": order_peak.amplitude, f"f{order}": order_peak.f_omega}
+            speed, amplitude, _ = peak(point, order, config.analysis.peaks)
+            row |= {f"Y{order}": amplitude, f"f{order}": speed}
         highest = int(np.nanargmax(measures["peak"]))
         row |= {"peak": measures["peak"][highest], "f_at_peak": point.f_omega[highest]}
         row |= {name: np.nanmax(measures[name]) for name in ("worn_volume", "deepest_wear")}
