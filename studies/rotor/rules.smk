@@ -95,7 +95,7 @@ rule rotor_patterns:
         patterns=lambda wildcards: rotor_plan().patterns,
         simulated=lambda wildcards: [
             asdict(run_spec(STUDY, combination.case, combination.f_omega))
-            for combination in rotor_plan().patterns.draws
+            for combination in rotor_plan().followed
         ],
     script:
         "scripts/rotor_patterns.py"

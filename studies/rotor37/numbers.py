@@ -104,24 +104,19 @@ def _independent(independent, direct):
 
 def _nlstep(nlstep, direct):
     lines = []
-    for (modes, steps), values in nlstep.groupby(["modes", "steps_per_revolution"]):
-        values = values.set_index("number")["value"]
+    numbers = nlstep.set_index("number").groupby(["modes", "steps_per_revolution"])["value"]
+    for (modes, steps), values in numbers:
         for friction in ("0", "0.15"):
             case = f"rest_mu{friction}"
-            if f"{case}.amplitude" not in values:
+            amplitude = f"{case}.amplitude"
+            if amplitude not in values:
                 continue
-            amplitude = direct[f"{case}.amplitude"]
-            difference = {
-                name: f"{100 * (values[f'{case}.{number}'] - direct[f'{case}.{number}']) / amplitude:+.1f}"
-                for name, number in (
-                    ("difference, %", "amplitude"),
-                    *((f"order {n}", f"order_{n}") for n in (2, 4, 6)),
-                )
-            }
+            difference = 100 * (values - direct) / direct[amplitude]
+            names = {"difference, %": amplitude} | {f"order {n}": f"{case}.order_{n}" for n in (2, 4, 6)}
             lines.append(
                 {"μ": friction, "modes": modes, "steps a revolution": steps}
-                | {"amplitude, mm": mm(values[f"{case}.amplitude"], 4)}
-                | difference
+                | {"amplitude, mm": mm(values[amplitude], 4)}
+                | {heading: f"{difference[name]:+.1f}" for heading, name in names.items()}
             )
     return table(pd.DataFrame(lines).sort_values(["μ", "modes", "steps a revolution"]))
 

@@ -26,7 +26,6 @@ from bladerub.workflow import outputs
 
 plain, dpi = snakemake.params.plan[reference.REFERENCE], snakemake.params.dpi
 config, origin, folder = typed(plain), provenance(plain), snakemake.params.folder
-sets = (reference.REFERENCE, *reference.VARIATIONS)
 cases = coating_cases(config)
 parts = {
     "blade": ["blade"],
@@ -37,27 +36,25 @@ parts = {
 for name, files in parts.items():
     by_set = {
         one: pd.concat(tables.read(f"{folder}/{one}/numbers/{file}.csv", numbers.COLUMNS) for file in files)
-        for one in sets
+        for one in (reference.REFERENCE, *reference.VARIATIONS)
     }
     table = reference.with_uncertainty(by_set)
     outputs.save(snakemake, origin=origin, digits="%.7g", **{name: table})
 
-history = f"{folder}/{reference.REFERENCE}/history.csv"
+reference_set = f"{folder}/{reference.REFERENCE}"
+history = f"{reference_set}/history.csv"
 tables.copy(history, snakemake.output.history)
 
-blade = read_reduced_blade(f"{folder}/{reference.REFERENCE}/blade/reduced_model.h5")
-maps = {case: read_map(f"{folder}/{reference.REFERENCE}/maps/{case.name}.h5") for case in cases}
-rigid = {f"μ = {case.friction:g}": response for case, response in maps.items() if case.is_rigid}
-coated = {
-    angle: {
-        f"E = {case.E:g} GPa": response
-        for case, response in maps.items()
-        if not case.is_rigid and case.theta == angle
-    }
-    for angle in sorted({case.theta for case in cases if not case.is_rigid})
-}
+blade = read_reduced_blade(f"{reference_set}/blade/reduced_model.h5")
+rigid, coated = {}, {}
+for case in cases:
+    response = read_map(f"{reference_set}/maps/{case.name}.h5")
+    if case.is_rigid:
+        rigid[f"μ = {case.friction:g}"] = response
+    else:
+        coated.setdefault(case.theta, {})[f"E = {case.E:g} GPa"] = response
 panels = {"rigid casing": rigid} | {
-    f"coated casing, θ = {angle:g}": response for angle, response in coated.items()
+    f"coated casing, θ = {angle:g}": responses for angle, responses in coated.items()
 }
 look = config.figures
 scales = Scales(modulus_unit(config), config.blade.length, blade.f1_hz, look.nominal_speed)

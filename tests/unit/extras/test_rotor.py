@@ -7,7 +7,8 @@ import pytest
 
 from bladerub.extras.plots.rotor import rotor
 from bladerub.extras.rotor import pattern, summary
-from bladerub.extras.rotor.plan import Combination, Patterns, Plan, read_plan
+from bladerub.extras.rotor.plan import Combination, Plan, read_plan
+from bladerub.extras.rotor.settings import Patterns
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import CoatingCase
 
@@ -53,7 +54,8 @@ def test_the_distribution_of_known_draws():
 
 def test_rows_that_leave_the_limit_before_the_first_look_are_counted(config, monkeypatch):
     monkeypatch.setattr(pattern, "simulate_row", lambda *described: SimpleNamespace(unbounded=(1,)))
-    plan = Plan(1, Counter(), Counter(), Patterns(4, 2, {Combination(CASE, 0.346, 4, 5e-5): 3}))
+    followed = Counter({Combination(CASE, 0.346, 4, 5e-5): 3})
+    plan = Plan(1, Counter(), Counter(), followed, Patterns.model_construct(harmonic=4, interval=2))
     (drift,) = pattern.drifts(pattern.table(config, None, plan)).to_dict("records")
     assert (drift["rows"], drift["followed_rows"]) == (3, 0)
     assert np.isnan(drift["pattern_drift_median"])

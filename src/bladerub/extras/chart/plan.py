@@ -61,7 +61,7 @@ def plan(config: Config) -> Plan:
     if expected_minutes(config, smallest) > minutes:
         needed = math.ceil(10 * expected_minutes(config, smallest)) / 10
         raise BadInput(f"chart.minutes = {minutes:g}: must be at least {needed:g} for the ends of E and K")
-    while (grown := _grown(chosen, orders)) and expected_minutes(config, grown) <= minutes:
+    while expected_minutes(config, grown := _grown(chosen, orders)) <= minutes:  # the whole is too long
         chosen = grown
     return chosen
 
@@ -117,14 +117,9 @@ def _from_the_ends(values: Sequence[float]) -> list[float]:
     return ordered
 
 
-def _grown(plan: Plan, orders: Mapping[str, Sequence[float]]) -> Plan | None:
-    """Add a modulus to the kind whose chosen ones have the wider gap; None if there is no other."""
-    gaps = {
-        name: np.diff(np.log(getattr(plan, name))).max()
-        for name, order in orders.items()
-        if len(getattr(plan, name)) < len(order)
-    }
-    if not gaps:
-        return None
-    name = max(gaps, key=lambda name: gaps[name])
-    return plan._replace(**{name: sorted(orders[name][: len(getattr(plan, name)) + 1])})
+def _grown(plan: Plan, orders: Mapping[str, Sequence[float]]) -> Plan:
+    """Add a modulus to the kind whose chosen ones have the wider gap, of those that have another."""
+    chosen = {name: getattr(plan, name) for name in orders}
+    growing = [name for name in orders if len(chosen[name]) < len(orders[name])]
+    name = max(growing, key=lambda name: np.diff(np.log(chosen[name])).max())
+    return plan._replace(**{name: sorted(orders[name][: len(chosen[name]) + 1])})

@@ -7,7 +7,8 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.rotor.plan import Patterns, Plan, described
+from bladerub.extras.rotor.plan import Plan, described
+from bladerub.extras.rotor.settings import Patterns
 from bladerub.extras.rotor.summary import WHAT
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Row
@@ -24,7 +25,7 @@ def table(config: Config, blade: ReducedBlade, plan: Plan) -> pd.DataFrame:
     `config` is the study. Raises `ValueError` as `bladerub.extras.rows.row.simulate_row`.
     """
     lines = []
-    for combination, draws in plan.patterns.draws.items():
+    for combination, draws in plan.followed.items():
         spec = run_spec(config, combination.case, combination.f_omega)
         for draw in range(draws):
             what = described(combination) | {"draw": draw, "pattern_harmonic": plan.patterns.harmonic}

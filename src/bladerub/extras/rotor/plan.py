@@ -2,7 +2,7 @@
 
 import itertools
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,7 +11,7 @@ from typing import Any
 from bladerub.config.errors import ConfigError
 from bladerub.extras import plans
 from bladerub.extras.inventory import Inventory, take
-from bladerub.extras.rotor.settings import Group, RotorPlan
+from bladerub.extras.rotor.settings import Group, Patterns, RotorPlan
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.rows.study import drawn
 from bladerub.io.folders import study_folder
@@ -46,24 +46,13 @@ class Combination:
 
 
 @dataclass(frozen=True)
-class Patterns:
-    """Rows whose worn pattern is followed."""
-
-    harmonic: int  # lobes of the pattern
-    interval: int  # revolutions between two looks at the wear
-    draws: Mapping[Combination, int]  # number of them
-
-
-@dataclass(frozen=True)
 class Plan:
-    """A plan as read: the combinations of its groups and of its sweeps, with the number of their draws.
-
-    `patterns` have combinations of their own.
-    """
+    """A plan as read: combinations of its groups, its sweeps and its patterns, with the number of draws."""
 
     seed: int
     compared: Counter[Combination]
     swept: Counter[Combination]
+    followed: Counter[Combination]
     patterns: Patterns | None = None
 
     @cached_property
@@ -123,9 +112,7 @@ def read_plan(path: str | Path, config: Config) -> Plan:
                     text = f"{key}: {speeds} would both be {combination.name}; leave one out"
                     raise ConfigError.at(located.locations()[key], text)
             draws[section] |= members
-    compared, swept, followed = draws.values()
-    patterns = Patterns(plan.patterns.harmonic, plan.patterns.interval, followed) if followed else None
-    return Plan(plan.seed, compared, swept, patterns)
+    return Plan(plan.seed, *draws.values(), plan.patterns)
 
 
 def _combinations_of(group: Group) -> Iterator[tuple[Combination, int]]:

@@ -1,6 +1,6 @@
 """The numbers that other codes can be compared with: of the blade, of direct contact, of coatings."""
 
-from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 import pandas as pd
@@ -71,7 +71,13 @@ def of_coating(config: Config, coating: CoatingMap, blade: ReducedBlade) -> pd.D
     An order without a bounded run near its crossing has no peak.
     """
     name, rpm = coating.case.name, 60 * blade.f1_hz
-    rows = [row for k in ORDERS for row in _peak(config, coating, k, rpm)]
+    step, settings = float(np.diff(coating.f_omega).max()), peak_settings(config, coating.case.casing)
+    rows = []
+    for order in ORDERS:
+        with suppress(ValueError):  # the spectra do not reach it
+            peak, place = peaks.peak(coating, order, settings), f"{name}.order_{order}"
+            rows.append((f"{place}.speed", peak.f_omega * rpm, "1/min", step * rpm))
+            rows.append((f"{place}.amplitude", peak.amplitude, "m", 0.0))
     divergent = [verdict.divergent for verdict in divergence.verdicts(config, coating)]
     rows.append((f"{name}.divergent_share", float(np.mean(divergent)), "1", 1 / len(divergent)))
     if not coating.case.is_rigid:
@@ -82,18 +88,6 @@ def of_coating(config: Config, coating: CoatingMap, blade: ReducedBlade) -> pd.D
             (f"{name}.wear_harmonic_at_nominal", float(coating.wear_harmonic[nominal]), "1", 0.0),
         ]
     return pd.DataFrame(rows, columns=COLUMNS)
-
-
-def _peak(
-    config: Config, coating: CoatingMap, order: int, rpm: float
-) -> Iterator[tuple[str, float, str, float]]:
-    try:
-        peak = peaks.peak(coating, order, peak_settings(config, coating.case.casing))
-    except ValueError:
-        return
-    name = f"{coating.case.name}.order_{order}"
-    yield f"{name}.speed", peak.f_omega * rpm, "1/min", float(np.diff(coating.f_omega).max()) * rpm
-    yield f"{name}.amplitude", peak.amplitude, "m", 0.0
 
 
 def _numbers(rows: list[tuple[str, float, str]]) -> pd.DataFrame:

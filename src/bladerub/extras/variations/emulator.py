@@ -4,7 +4,8 @@ The process is OpenTURNS's, with a Matérn covariance (5/2) and a length for eac
 scatter that no smooth function explains: chaotic runs, and maxima between the speeds of the grid.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -85,18 +86,21 @@ def emulators(positions: np.ndarray, measured: pd.DataFrame) -> dict[str, Emulat
 def held_out(emulator: Emulator) -> HeldOut:
     """Predict each of `FOLDS` parts of the sets of `emulator` from the others, with its covariance."""
     positions, values = emulator.positions, emulator.values
+    fit = partial(Emulator, covariance=emulator.covariance)
+    return compared(values, from_others(positions, values, lambda *others: fit(*others).predict))
+
+
+def from_others(
+    positions: np.ndarray, values: np.ndarray, fit: Callable[..., Callable[[np.ndarray], Predicted]]
+) -> Predicted:
+    """Predict each of `FOLDS` parts of the sets by what `fit` makes of positions and values of the others."""
     mean, deviation = np.empty(values.size), np.empty(values.size)
-    for inside, outside in folds(values.size):
-        others = Emulator(positions[inside], values[inside], emulator.covariance)
-        mean[outside], deviation[outside] = others.predict(positions[outside])
-    return compared(values, Predicted(mean, deviation))
-
-
-def folds(count: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield those of `count` sets to learn from and those to predict, each a mask, `FOLDS` times."""
-    fold = np.arange(count) % FOLDS
-    for left_out in range(FOLDS):
-        yield fold != left_out, fold == left_out
+    fold = np.arange(values.size) % FOLDS
+    for part in range(FOLDS):
+        inside, outside = fold != part, fold == part
+        predict = fit(positions[inside], values[inside])
+        mean[outside], deviation[outside] = predict(positions[outside])
+    return Predicted(mean, deviation)
 
 
 def compared(values: np.ndarray, predicted: Predicted) -> HeldOut:

@@ -64,14 +64,11 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
 
     `measured` is of all sets, the study's own the first; `predictions` are of sets that were simulated later.
     """
-    implausible, rows = implausibility(measured), []
+    rows, implausible = [], implausibility(measured)
     for name, values in measured.items():
         target, of_target = TARGETS[name], predictions[predictions.target == name].set_index("set")
         later = of_target.join(values.rename("simulated"), how="inner").dropna()
-        error = compared(
-            later.simulated.to_numpy(),
-            Predicted(later.predicted_value.to_numpy(), later.deviation.to_numpy()),
-        )
+        predicted = Predicted(later.predicted_value.to_numpy(), later.deviation.to_numpy())
         rows.append(
             {
                 "target": name,
@@ -83,8 +80,7 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
                 "lowest": values.min(),
                 "highest": values.max(),
                 "plausible": float((implausible[name] <= CUTOFF).mean()),
-                "explained": error.explained,
-                "within_two": error.within_two,
+                **compared(later.simulated.to_numpy(), predicted)._asdict(),
             }
         )
     return pd.DataFrame(rows)

@@ -7,11 +7,12 @@ without a fifth of the samples predict for that fifth. The indices are shares of
 by that share they become shares of the whole variance.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.extras.variations.emulator import folds
+from bladerub.extras.variations.emulator import Predicted, compared, from_others
 from bladerub.extras.variations.settings import FEWEST
 from bladerub.io.optional import package
 
@@ -41,21 +42,17 @@ def indices(positions: np.ndarray, output: np.ndarray) -> Indices:
     if output.size < FEWEST or np.ptp(output) == 0:
         return Indices(*np.full((2, len(factors)), np.nan), np.nan)
     sobol = openturns.FunctionalChaosSobolIndices(_expansion(positions, output))
-    predicted = max(_predicted(positions, output), 0.0)
+    predicted = max(compared(output, from_others(positions, output, _fit)).explained, 0.0)
     first = predicted * np.array([sobol.getSobolIndex(factor) for factor in factors])
     total = predicted * np.array([sobol.getSobolTotalIndex(factor) for factor in factors])
     return Indices(first, total, predicted)
 
 
-def _predicted(positions: np.ndarray, output: np.ndarray) -> float:
-    predicted = np.empty_like(output, dtype=float)
-    for inside, outside in folds(output.size):
-        if np.ptp(output[inside]) == 0:
-            predicted[outside] = output[inside][0]
-        else:
-            model = _expansion(positions[inside], output[inside]).getMetaModel()
-            predicted[outside] = np.array(model(positions[outside])).ravel()
-    return float(1 - np.mean((output - predicted) ** 2) / np.var(output))
+def _fit(positions: np.ndarray, output: np.ndarray) -> Callable[[np.ndarray], Predicted]:
+    if np.ptp(output) == 0:
+        return lambda others: Predicted(output[0], 0.0)
+    model = _expansion(positions, output).getMetaModel()
+    return lambda others: Predicted(np.array(model(others)).ravel(), 0.0)
 
 
 def _expansion(positions: np.ndarray, output: np.ndarray) -> openturns.FunctionalChaosResult:

@@ -31,17 +31,12 @@ def counts(table: pd.DataFrame) -> pd.DataFrame:
     the one set has and the other does not is left out.
     """
     holds = side_by_side(table, by="set")
+    numbers = holds.apply(pd.Series.value_counts).reindex(list(SCORE)).fillna(0).astype(int).T
     score = holds.apply(lambda of_set: of_set.map(SCORE))
-    rows = []
-    for name in holds:
-        change = score[name] - score.iloc[:, 0]
-        number = holds[name].value_counts()
-        rows.append(
-            {"set": name}
-            | {word: number.get(word, 0) for word in SCORE}
-            | {"better": " ".join(change[change > 0].index), "worse": " ".join(change[change < 0].index)}
-        )
-    return pd.DataFrame(rows)
+    change = score.sub(score.iloc[:, 0], axis=0)
+    for word, differs in (("better", change > 0), ("worse", change < 0)):
+        numbers[word] = [" ".join(differs.index[differs[name]]) for name in holds]
+    return numbers.rename_axis(index="set", columns=None).reset_index()
 
 
 @style.styled
