@@ -8,12 +8,11 @@ from pathlib import Path
 
 import pandas as pd
 
-from bladerub.extras.variations.job import VERDICTS
 from bladerub.extras.variations.verdicts import counts, side_by_side, verdicts
 from bladerub.io import tables
 from bladerub.workflow import outputs
 
 paths = [Path(path) for path in snakemake.input.verdicts]
-of_sets = [tables.read(path, VERDICTS).assign(set=path.parent.name) for path in paths]
+of_sets = [tables.read(path).assign(set=path.parent.name) for path in paths]
 table = pd.concat(of_sets, ignore_index=True)
 outputs.save(snakemake, verdicts(side_by_side(table, by="set")), table=table, counts=counts(table))

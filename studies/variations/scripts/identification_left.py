@@ -19,10 +19,10 @@ emulated = emulators(positions, measured)
 remaining = waves.remaining(plan, emulated)
 drawn = waves.draw(plan, wave, remaining, emulated, positions)
 first = plan.first(wave + 1)
-left = pd.DataFrame([(wave, len(measured), remaining.given_up, remaining.share)], columns=summary.LEFT)
+left = {"wave": wave, "sets": len(measured), "given_up": remaining.given_up, "remaining": remaining.share}
 outputs.save(
     snakemake,
-    left=left,
+    left=pd.DataFrame([left]),
     emulators=summary.emulated(wave, emulated, remaining),
     ranges=summary.ranges(plan, remaining),
     next_sets=waves.as_table(plan, first, drawn),

@@ -6,13 +6,12 @@ job.log_to(snakemake.log[0])
 
 from bladerub.extras.variations import robustness as summary
 from bladerub.extras.variations.figures import robustness as draw
-from bladerub.extras.variations.job import COST
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import read
 from bladerub.workflow import outputs
 
 plan = read("robustness", snakemake.input.plan)
-verdicts, cost = summary.collect(snakemake.input.verdicts), read_jobs(snakemake.input.cost, COST)
+verdicts, cost = summary.collect(snakemake.input.verdicts), read_jobs(snakemake.input.cost)
 indices = summary.sensitivities(plan, verdicts)
 table = summary.summary(plan, verdicts, indices, cost)
 results = {"table": table, "indices": indices, "verdicts": verdicts, "design": summary.design(plan)}

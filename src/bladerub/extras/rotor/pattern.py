@@ -15,12 +15,9 @@ from bladerub.extras.rows.spec import Row
 from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec
 
-COLUMNS = [*WHAT, "draw", "pattern_harmonic", "revolution", "pattern_angle", "pattern_depth", "pattern_drift"]
-"""Columns of the table of patterns."""
-
 
 def table(config: Config, blade: ReducedBlade, plan: Plan) -> pd.DataFrame:
-    """Follow the worn pattern of each row among the patterns of `plan`: a line an interval, with `COLUMNS`.
+    """Follow the worn pattern of each row among the patterns of `plan`: a line an interval.
 
     `config` is the study. Raises `ValueError` as `bladerub.extras.rows.row.simulate_row`.
     """
@@ -31,7 +28,7 @@ def table(config: Config, blade: ReducedBlade, plan: Plan) -> pd.DataFrame:
             what = described(combination) | {"draw": draw, "pattern_harmonic": plan.patterns.harmonic}
             row = plan.row(combination, draw)
             lines += [what | line for line in _of_row(blade, spec, row, plan.patterns)]
-    return pd.DataFrame(lines, columns=COLUMNS)
+    return pd.DataFrame(lines)
 
 
 def _of_row(blade: ReducedBlade, spec: RunSpec, row: Row, patterns: Patterns) -> list[dict[str, float]]:

@@ -34,8 +34,6 @@ CASING = "bumps"
 
 STEPS = 20
 """Time steps of `independent` in the passage of a coating element; half as many are tried as well."""
-COLUMNS = ["treatment", "modes", "steps", "number", "value", "unit"]
-"""Columns of `independent`."""
 
 
 def unstiffened(blade: ReducedBlade) -> ReducedBlade:
@@ -97,5 +95,6 @@ def independent(config: Config, blade: ReducedBlade) -> pd.DataFrame:
         for (treatment, n), rule in rules.items():
             result = impact.simulate(rule, model, variant)
             measures = of_displacement("rest_mu0", result.radial_displacement, REVOLUTIONS)
-            parts.append(measures.assign(treatment=treatment, modes=n, steps=steps)[COLUMNS])
-    return pd.concat(parts, ignore_index=True)
+            parts.append(measures.assign(treatment=treatment, modes=n, steps=steps))
+    columns = ["treatment", "modes", "steps", "number", "value", "unit"]
+    return pd.concat(parts, ignore_index=True)[columns]

@@ -45,8 +45,6 @@ CASES = (
     (0.15, 50, 4000),
 )
 """Coefficient of friction, modes that move, and time steps in a revolution."""
-COLUMNS = ["modes", "steps_per_revolution", "number", "value", "unit"]
-"""Columns of the `table`."""
 
 _DIFFERENCE = 1e-6  # rad, for the slope of the casing
 
@@ -158,7 +156,7 @@ def _octave(*arguments: str) -> str:
 
 
 def table(config: Config, blade: ReducedBlade, function: Path, threads: int) -> pd.DataFrame:
-    """Measure `CASES` by NLstep, `threads` at a time: the numbers of `direct`, columns `COLUMNS`."""
+    """Measure `CASES` by NLstep, `threads` at a time: the numbers of `direct`."""
     model = direct.unstiffened(blade)
 
     def measure(friction: float, n_modes: int, steps: int) -> pd.DataFrame:
@@ -166,7 +164,9 @@ def table(config: Config, blade: ReducedBlade, function: Path, threads: int) -> 
         displacement, in_contact = integrate(function, case(model, spec, n_modes, steps))
         numbers = of_displacement(name, displacement, spec.revolutions)[["number", "value", "unit"]]
         numbers.loc[len(numbers)] = [f"{name}.contact_share", in_contact.mean(), "1"]
-        return numbers.assign(modes=n_modes, steps_per_revolution=steps)[COLUMNS]
+        numbers.insert(0, "steps_per_revolution", steps)
+        numbers.insert(0, "modes", n_modes)
+        return numbers
 
     with ThreadPoolExecutor(threads) as pool:
         return pd.concat(pool.map(measure, *zip(*CASES, strict=True)), ignore_index=True)

@@ -21,9 +21,6 @@ PREDICTED = ("C6", "C9", "C12")
 
 _INDEX = ["candidate", "neighbour", "set", "misfit"]
 
-COLUMNS = ["candidate", "neighbour", "id", "holds", "margin"]
-"""Columns of the verdicts; candidate 0 has the study's own values, neighbour 0 is the candidate itself."""
-
 
 def misfit(measured: pd.DataFrame) -> pd.Series:
     """Return the misfit of each simulated set: mean square of the implausibility of its targets, bounded."""
@@ -65,15 +62,15 @@ def read(path: str | Path) -> pd.DataFrame:
 
 
 def verdicts(plan: Plan, judged: pd.DataFrame) -> pd.DataFrame:
-    """Return the verdicts of the finer studies with `COLUMNS`; their ``set`` is the number of the pair."""
+    """Return the verdicts of the finer studies, whose ``set`` is the number of the pair."""
     pairs = np.array(plan.candidates.pairs)[judged.set]
-    return judged.assign(candidate=pairs[:, 0], neighbour=pairs[:, 1])[COLUMNS]
+    return judged.assign(candidate=pairs[:, 0], neighbour=pairs[:, 1])[[*_INDEX[:2], "id", "holds", "margin"]]
 
 
 def counts(candidates: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
     """Count the parts that hold for each candidate and neighbour, of the matched claims and of the others.
 
-    `candidates` is from `as_table`, `verdicts` have `COLUMNS`.
+    `candidates` is from `as_table`, `verdicts` from the function of this name.
     """
     matched = {target.claim for target in TARGETS.values()}
     yes = verdicts.holds == YES

@@ -7,23 +7,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.variations.emulator import Emulator, Predicted, compared, held_out
-from bladerub.extras.variations.job import QUANTITIES
+from bladerub.extras.variations.emulator import Emulator, HeldOut, Predicted, compared, held_out
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
 from bladerub.extras.variations.waves import CUTOFF, Remaining, as_table, implausibility, with_values
 from bladerub.study.findings.claim import YES
-
-PREDICTIONS = ["set", "target", "predicted_value", "deviation"]
-"""Columns of the targets as predicted before a set is simulated."""
-
-LEFT = ["wave", "sets", "given_up", "remaining"]
-"""Columns of what is left after a wave: targets that had to be given up, share of the volume."""
-
-EMULATORS = ["wave", "target", "explained", "within_two", "plausible"]
-"""Columns of the emulators after a wave: see `bladerub.extras.variations.emulator.HeldOut`; the share
-of the volume that the target alone leaves."""
 
 _RARE = 0.05  # a claim that holds in fewer sets says nothing about which others it goes with
 _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusion
@@ -31,7 +20,7 @@ _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusi
 
 def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Read the targets of all jobs: a row for each set, a column for each target, in their order."""
-    table = read_jobs(paths, QUANTITIES).pivot(index="set", columns="target", values="value")
+    table = read_jobs(paths).pivot(index="set", columns="target", values="value")
     return table[[name for name in TARGETS if name in table]]
 
 
@@ -42,21 +31,21 @@ def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame
 
 
 def emulated(wave: int, emulators: Mapping[str, Emulator], remainder: Remaining) -> pd.DataFrame:
-    """Say how well each target is predicted: a row each, with `EMULATORS`."""
+    """Say how well each target is predicted (`HeldOut`), and the share of the volume that it leaves."""
     rows = [
         (wave, name, *held_out(emulator), remainder.plausible[name]) for name, emulator in emulators.items()
     ]
-    return pd.DataFrame(rows, columns=EMULATORS)
+    return pd.DataFrame(rows, columns=["wave", "target", *HeldOut._fields, "plausible"])
 
 
 def predictions(emulators: Mapping[str, Emulator], first: int, drawn: np.ndarray) -> pd.DataFrame:
-    """Predict the targets of the sets `drawn` (n, d), numbered from `first`, with `PREDICTIONS`."""
+    """Predict the targets of the sets `drawn` (n, d), numbered from `first`, before they are simulated."""
     rows = [
         (number, name, mean, deviation)
         for name, emulator in emulators.items()
         for number, (mean, deviation) in enumerate(zip(*emulator.predict(drawn), strict=True), first)
     ]
-    return pd.DataFrame(rows, columns=PREDICTIONS)
+    return pd.DataFrame(rows, columns=["set", "target", "predicted_value", "deviation"])
 
 
 def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:

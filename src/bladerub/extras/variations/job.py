@@ -30,12 +30,6 @@ from bladerub.study.grid import coating_cases, speeds
 VERDICTS = ["set", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
 """Columns of the verdicts."""
 
-QUANTITIES = ["set", "target", "value"]
-"""Columns of the measured targets; NaN where a study has nothing to measure."""
-
-COST = ["part", "set", "runs", "cpu_s"]
-"""Columns of the cost of the small studies: runs, and processor time in s without that of the blade."""
-
 _DETERMINING = ("blade", "reduction", "contact", "coatings", "speeds", "solver", "analysis")  # and casings
 
 
@@ -135,10 +129,11 @@ def judge(
 ) -> dict[str, pd.DataFrame]:
     """Make the small study of each case, judge the claims of its part and measure their targets.
 
-    Returns the tables ``verdicts``, ``quantities`` and ``cost``, with `VERDICTS`, `QUANTITIES` and `COST`.
-    Each blade is built once in a folder of `blades`. `folder`, for the only case, keeps runs, maps, peaks and
-    divergence; without it they are in memory alone. `report` is as of `bladerub.study.job.compute_missing`.
-    Raises `ConfigError` if the values of a case make no study together.
+    Returns the tables ``verdicts`` (`VERDICTS`), ``quantities`` (measured targets; NaN where a study has
+    nothing to measure) and ``cost`` (runs, and processor time in s without that of the blade). Each blade is
+    built once in a folder of `blades`. `folder`, for the only case, keeps runs, maps, peaks and divergence;
+    without it they are in memory alone. `report` is as of `bladerub.study.job.compute_missing`. Raises
+    `ConfigError` if the values of a case make no study together.
     """
     verdicts, quantities, cost = [], [], []
     for case in cases:
@@ -156,8 +151,8 @@ def judge(
             tables.write(path, getattr(study, name), origin)
     return {
         "verdicts": pd.concat(verdicts, ignore_index=True),
-        "quantities": pd.DataFrame(quantities, columns=QUANTITIES),
-        "cost": pd.DataFrame(cost, columns=COST),
+        "quantities": pd.DataFrame(quantities, columns=["set", "target", "value"]),
+        "cost": pd.DataFrame(cost, columns=["part", "set", "runs", "cpu_s"]),
     }
 
 
@@ -171,7 +166,7 @@ def blade_of(config: Config, blades: str | Path, report: Callable[[object], None
     return model
 
 
-def read(paths: Iterable[str | Path], columns: list[str]) -> pd.DataFrame:
-    """Read a table of several jobs as one, with `columns`."""
-    jobs = [tables.read(path, columns) for path in paths]
+def read(paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Read a table of several jobs as one."""
+    jobs = list(map(tables.read, paths))
     return pd.concat([job for job in jobs if len(job)] or jobs[:1], ignore_index=True)

@@ -22,9 +22,6 @@ from bladerub.study.grid import SAME_SPEED, SPEED_DECIMALS, speeds
 from bladerub.study.maps import DATASETS, CoatingMap, read_map
 from bladerub.study.wear import lobes
 
-COLUMNS = ["variation", *findings.COLUMNS]
-"""Columns of ``margins.csv``: those of ``findings.csv`` for each variation."""
-
 STUDY = "study"
 """Name of the variation that changes nothing."""
 
@@ -105,7 +102,7 @@ def _with_lobes(coating: CoatingMap, prominence: float) -> CoatingMap:
 
 
 def table(config: Config, map_paths: Iterable[str | Path], rom_accuracy_path: str | Path) -> pd.DataFrame:
-    """Judge every claim in every variation of the study with these files: a row each, with `COLUMNS`.
+    """Judge every claim in every variation of the study with these files: a row each, as of findings.
 
     A claim that cannot be judged has no row; the log says so. Raises `BadInput` if all coatings have values
     of their own.
@@ -119,4 +116,4 @@ def table(config: Config, map_paths: Iterable[str | Path], rom_accuracy_path: st
         tables = {"peaks": peak_table.table(settings, maps), "divergence": divergence.table(settings, maps)}
         tables["rom_accuracy"] = rom_accuracy
         judged.append(findings.judge(Evidence(settings, tables, maps)).assign(variation=name))
-    return pd.concat(judged, ignore_index=True)[COLUMNS]
+    return pd.concat(judged, ignore_index=True)[["variation", *findings.COLUMNS]]

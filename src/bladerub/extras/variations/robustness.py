@@ -8,7 +8,7 @@ import pandas as pd
 
 from bladerub.extras.variations import job, waves
 from bladerub.extras.variations.plan import REFERENCE, Plan
-from bladerub.extras.variations.sensitivity import indices
+from bladerub.extras.variations.sensitivity import Indices, indices
 from bladerub.study.findings import CLAIMS
 from bladerub.study.findings.claim import NO, SCORE, claim_of
 
@@ -19,12 +19,6 @@ DECIDES = 0.1
 
 VERDICT, MARGIN = "verdict", "margin"
 """Outputs whose indices are estimated: `SCORE`, and the rank of the margin, which may be infinite."""
-
-COLUMNS = ["sample", "id", "holds", "margin"]
-"""Columns of the verdicts of all samples."""
-
-INDICES = ["id", "output", "factor", "first", "total", "predicted"]
-"""Columns of the table of `sensitivities`."""
 
 
 def design(plan: Plan) -> pd.DataFrame:
@@ -41,7 +35,7 @@ def design(plan: Plan) -> pd.DataFrame:
 
 def collect(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Put the verdicts of all jobs into one table, ordered by claim and sample, the reference first."""
-    table = job.read(paths, job.VERDICTS).rename(columns={"set": "sample"})[COLUMNS]
+    table = job.read(paths).rename(columns={"set": "sample"})[["sample", "id", "holds", "margin"]]
     table["id"] = pd.Categorical(table["id"], list(_TITLES), ordered=True)
     return table.sort_values(["id", "sample"], ignore_index=True).astype({"id": str})
 
@@ -49,7 +43,7 @@ def collect(paths: Iterable[str | Path]) -> pd.DataFrame:
 def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
     """Estimate what decides each claim, and what changes its margin, from `verdicts` of `collect`.
 
-    A row per claim, output (`VERDICT`, `MARGIN`) and factor, with `INDICES`; none where there are no indices.
+    A row per claim, output (`VERDICT`, `MARGIN`) and factor; none where there are no indices.
     """
     positions, rows = waves.design(plan), []
     for id_, of_claim in verdicts[verdicts["sample"] != REFERENCE].groupby("id", sort=False):
@@ -64,7 +58,7 @@ def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
                 (id_, output, factor, first, total, estimate.predicted)
                 for factor, first, total in zip(plan.factors, estimate.first, estimate.total, strict=True)
             ]
-    return pd.DataFrame(rows, columns=INDICES)
+    return pd.DataFrame(rows, columns=["id", "output", "factor", *Indices._fields])
 
 
 def summary(
@@ -72,9 +66,8 @@ def summary(
 ) -> pd.DataFrame:
     """Sum up each claim: the share of the design in which it holds, what decides that, and the cost.
 
-    `verdicts` is from `collect`, `sensitivity` from `sensitivities`; `cost` has a row per part and sample,
-    with `bladerub.extras.variations.job.COST`. A row for each part of each claim of the plan; shares
-    are of the samples that have a verdict.
+    `verdicts` is from `collect`, `sensitivity` from `sensitivities`, `cost` from the jobs. A row for each
+    part of each claim of the plan; shares are of the samples that have a verdict.
     """
     part_of = {claim: part.name for part in plan.parts.values() for claim in part.claims}
     own_values, drawn = (verdicts["sample"] == REFERENCE), cost[cost["set"] != REFERENCE]
