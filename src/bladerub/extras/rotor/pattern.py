@@ -36,19 +36,17 @@ def _of_row(blade: ReducedBlade, spec: RunSpec, row: Row, patterns: Patterns) ->
 
     NaN for the first look if it is not there.
     """
-    ends, coefficients = [], []
-    before = np.zeros(spec.coating.n_elements)
+    ends, wear = [], [np.zeros(spec.coating.n_elements)]
     for last in range(patterns.interval, spec.revolutions + 1, patterns.interval):
         # a shorter run is the beginning of the longer one, bit by bit
         result = simulate_row(blade, replace(spec, revolutions=last), row)
         if result.unbounded:
-            if not ends:
-                ends, coefficients = [last], [np.nan]
             break
-        worn = result.wear.mean(axis=0)
         ends.append(last)
-        coefficients.append(component(result.angle, worn - before, patterns.harmonic))
-        before = worn
+        wear.append(result.wear.mean(axis=0))
+    coefficients = [component(result.angle, worn, patterns.harmonic) for worn in np.diff(wear, axis=0)]
+    if not ends:
+        ends, coefficients = [patterns.interval], [np.nan]
     angle, depth = lobe_angle(np.array(coefficients), patterns.harmonic), np.abs(coefficients)
     drift = drift_rate(np.array(ends), angle, depth)
     return [

@@ -52,8 +52,7 @@ def choose(
 
 def as_table(plan: Plan, candidates: pd.DataFrame) -> pd.DataFrame:
     """Make the long table of `choose`: a row for each factor, with its position and value."""
-    table = candidates.melt(id_vars=_INDEX, var_name="factor", value_name="range_fraction")
-    return with_values(plan, table).sort_values(_INDEX[:2], kind="stable", ignore_index=True)
+    return with_values(plan, candidates.set_index(_INDEX))
 
 
 def read(path: str | Path) -> pd.DataFrame:

@@ -11,7 +11,7 @@ from bladerub.extras.variations.emulator import Emulator, HeldOut, Predicted, co
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
-from bladerub.extras.variations.waves import CUTOFF, Remaining, as_table, implausibility, with_values
+from bladerub.extras.variations.waves import CUTOFF, Remaining, implausibility, with_values
 from bladerub.study.findings.claim import YES
 
 _RARE = 0.05  # a claim that holds in fewer sets says nothing about which others it goes with
@@ -26,7 +26,7 @@ def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
 
 def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame:
     """List every simulated set: a row for each factor, with its position and value, and the set's misfit."""
-    table = with_values(plan, as_table(plan, 0, positions.to_numpy()))
+    table = with_values(plan, positions)
     return table.assign(misfit=table.set.map(misfit))
 
 

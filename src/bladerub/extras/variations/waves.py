@@ -72,13 +72,18 @@ def first(plan: Plan, study: Config) -> np.ndarray:
 
 def as_table(plan: Plan, number: int, drawn: np.ndarray) -> pd.DataFrame:
     """Make the table of the sets `drawn` (n, d), numbered from `number`, with `POSITIONS`."""
-    names = list(plan.factors)
-    numbers = np.repeat(np.arange(number, number + len(drawn)), len(names))
-    return pd.DataFrame({"set": numbers, "factor": names * len(drawn), "range_fraction": np.ravel(drawn)})
+    numbers = pd.RangeIndex(number, number + len(drawn), name="set")
+    return as_long(pd.DataFrame(drawn, numbers, list(plan.factors)))
 
 
-def with_values(plan: Plan, table: pd.DataFrame) -> pd.DataFrame:
-    """Add to a table with `POSITIONS` the first number that each factor sets, and its unit."""
+def as_long(positions: pd.DataFrame) -> pd.DataFrame:
+    """Make a row for each factor of each set of `positions`, which have a column for each factor."""
+    return positions.rename_axis(columns="factor").stack().rename("range_fraction").reset_index()
+
+
+def with_values(plan: Plan, sets: pd.DataFrame) -> pd.DataFrame:
+    """Make those rows with the first number that each factor sets, and its unit."""
+    table = as_long(sets)
     positions = zip(table.factor, table.range_fraction, strict=True)
     values = [plan.factors[name].first_value(position) for name, position in positions]
     return table.assign(value=values, unit=[plan.factors[name].unit for name in table.factor])
