@@ -78,8 +78,8 @@ def drawn_sets(wildcards):
 
 def variations_kernels(wildcards):
     """The machine code that the sets need: jobs that start together would all compile it."""
-    factors = variations_plan(wildcards.kind).factors
-    turns = any("contact.tip_turns" in factor.ranges for factor in factors)
+    factors = variations_plan(wildcards.kind).factors.values()
+    turns = any("contact.tip_turns" in factor.sets for factor in factors)
     both = [rules.compile_kernel.output[0], rules.identification_kernel.output[0]]
     return both if turns else both[:1]
 

@@ -3,7 +3,7 @@
 import itertools
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 
@@ -112,7 +112,8 @@ def compute_missing(
         if missing:
             C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
         for case in missing:
-            earlier = points.read_of(entries[case].path, runs_keys[case])
+            of_runs = replace(entries[case], key=runs_keys[case], attribute=points.RUNS_KEY)
+            earlier = points.read(of_runs.path) if of_runs.fetch() else None
             searches[case] = search(config, case, blade, speeds, C1, earlier)
         parts = [missing] if solver.wants_many else [[case] for case in missing]
         number = itertools.count(1)

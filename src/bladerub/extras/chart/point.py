@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.io import checksum, hdf5
-from bladerub.io.errors import BadInput, DamagedFile, is_refused
+from bladerub.io import hdf5
+from bladerub.io.errors import BadInput, DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -155,14 +155,3 @@ def read(path: str | Path) -> ChartPoint:
         )
     except KeyError as error:
         raise DamagedFile(f"{path}: not a point of the chart, {error} is missing") from error
-
-
-def read_of(path: str | Path, runs_key: str) -> ChartPoint | None:
-    """Read a point if it is there, whole, and of the runs of `runs_key`; else None."""
-    try:
-        is_same = hdf5.read_attributes(path).get(RUNS_KEY) == runs_key and checksum.is_sealed(path)
-        return read(path) if is_same else None
-    except OSError as error:
-        if is_refused(error):
-            raise
-        return None

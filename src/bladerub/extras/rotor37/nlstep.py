@@ -116,10 +116,9 @@ def program() -> Path:
     folder = os.environ.get(VARIABLE)
     function = Path(folder or "") / FUNCTION
     problems = []
-    if not folder:
-        problems.append(f"{VARIABLE} is not set: it must be the folder with {FUNCTION} (SRC of NLstep)")
-    elif not function.is_file():
-        problems.append(f"{VARIABLE} = {folder}: has no {FUNCTION}; it must be the folder SRC of NLstep")
+    if not folder or not function.is_file():
+        right = f"must be the folder with {FUNCTION} (SRC of NLstep)"
+        problems.append(f"{VARIABLE} = {folder or 'not set'}: {right}")
     if shutil.which(OCTAVE) is None:
         problems.append(f"{OCTAVE}: not found; NLstep needs GNU Octave here")
     if problems:
