@@ -1,7 +1,7 @@
 """The study repeated with other inputs: how far its answers depend on what the paper leaves open.
 
-`plan` reads what varies and which jobs it takes, `factors` turn a position within a range into numbers of the
-config, `waves` draws positions, and `job` simulates sets of inputs: one plan, one sampler, one kind of job.
+`plan` reads what varies and which jobs it takes, and turns positions in ranges into numbers of the config;
+`waves` draws positions, and `job` simulates sets of inputs: one plan, one sampler, one kind of job.
 
 Summaries: `verdicts` compares those of several sets; `robustness` gives the share in which a claim holds and,
 by `sensitivity`, what decides it; `identification` and `candidates` say which values agree with the paper, by

@@ -9,7 +9,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 from operator import attrgetter
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -42,38 +41,34 @@ _IN_FIGURES = {"E": {0.11, 1.1, 2.0, 11.0, 20.0, np.inf}, "K": {0.5, np.inf}}  #
 _log = logging.getLogger(__name__)
 
 
-class Variation(NamedTuple):
-    """The study's config with another window or threshold, or its maps with fewer coatings or speeds."""
+def variations(config: Config, maps: Iterable[CoatingMap]) -> dict[str, tuple[Config, list[CoatingMap]]]:
+    """List the variations of the study of these `maps` by name, `STUDY` first.
 
-    config: Config
-    maps: list[CoatingMap]
-
-
-def variations(config: Config, maps: Iterable[CoatingMap]) -> dict[str, Variation]:
-    """List the variations of the study of these `maps` by name, `STUDY` first."""
+    Each is the config with another window or threshold, or the maps with fewer coatings or speeds.
+    """
     maps = [coating for coating in maps if not coating.case.variant]
-    varied = {STUDY: Variation(config, maps)}
+    varied = {STUDY: (config, maps)}
     if _even_speeds(config, 1).size < len(speeds(config)):
-        varied["even speeds only"] = Variation(config, _at(maps, _even_speeds(config, 1)))
+        varied["even speeds only"] = config, _at(maps, _even_speeds(config, 1))
     for every in (2, 4):
         step = every * config.speeds.step
-        varied[f"speed step {step:g}"] = Variation(config, _at(maps, _even_speeds(config, every)))
+        varied[f"speed step {step:g}"] = config, _at(maps, _even_speeds(config, every))
     for name, (key, value) in SETTINGS.items():
         study_value = attrgetter(key)(config.analysis)
         # below the study's threshold of growth there are no longer runs to judge by
         if value != study_value and (key != "divergence.growth" or value > study_value):
-            varied[name] = Variation(config.replaced(f"analysis.{key}", value), maps)
+            varied[name] = config.replaced(f"analysis.{key}", value), maps
     for prominence in PROMINENCES:
         if prominence != config.analysis.lobe_prominence:
             counted = [_with_lobes(coating, prominence) for coating in maps]
-            varied[f"lobes above {100 * prominence:g} %"] = Variation(config, counted)
+            varied[f"lobes above {100 * prominence:g} %"] = config, counted
     for modulus in ("E", "K"):
         values = {getattr(coating.case, modulus) for coating in maps}
         dropped = sorted(values - _IN_FIGURES[modulus])[::2]
         coatings = [coating for coating in maps if getattr(coating.case, modulus) not in dropped]
         if dropped and coatings:
             without = ", ".join(f"{value:g}" for value in dropped)
-            varied[f"without {modulus} = {without}"] = Variation(config, coatings)
+            varied[f"without {modulus} = {without}"] = config, coatings
     return varied
 
 
@@ -109,7 +104,7 @@ def table(config: Config, map_paths: Iterable[str | Path], rom_accuracy_path: st
     """
     rom_accuracy, judged = read_rom_accuracy(rom_accuracy_path), []
     varied = variations(config, map(read_map, map_paths))
-    if not varied[STUDY].maps:
+    if not varied[STUDY][1]:
         raise BadInput("coatings: margins need one without values of its own, as the claims do")
     for name, (settings, maps) in varied.items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out
