@@ -109,28 +109,22 @@ def _drift(drift):
 
 def _sweeps(rotor):
     lines = []
-    for peak, theta, moduli in (
-        ("f4", 0, (0.5, 1.1, 2, 5, 20)),
-        ("f4", 0.15, (2,)),
-        ("f6", 0, (2,)),
-        ("f6", 0.15, (2,)),
-    ):
-        for E in moduli:
-            sweep = rows(rotor, E=E, K=0.5, theta=theta, blades=4, **_SCATTER)
-            sweep = sweep[sweep["f_omega"].between(*_WINDOWS[peak])]
-            highest = sweep.loc[sweep["row_amplitude_median"].idxmax()]
-            lines.append(
-                {
-                    "around": peak,
-                    "E": E,
-                    "θ": theta,
-                    "greatest median amplitude, mm": mm(highest["row_amplitude_median"]),
-                    "at f_Ω": fixed(highest["f_omega"], 3),
-                    "leave the limit at the worst speed, %": percent(
-                        (sweep["unbounded_rows"] / sweep["rows"]).max()
-                    ),
-                }
-            )
+    coatings = [("f4", E, 0) for E in (0.5, 1.1, 2, 5, 20)]
+    for peak, E, theta in (*coatings, ("f4", 2, 0.15), ("f6", 2, 0), ("f6", 2, 0.15)):
+        sweep = rows(rotor, E=E, K=0.5, theta=theta, blades=4, **_SCATTER)
+        sweep = sweep[sweep["f_omega"].between(*_WINDOWS[peak])]
+        highest = sweep.loc[sweep["row_amplitude_median"].idxmax()]
+        unbounded = (sweep["unbounded_rows"] / sweep["rows"]).max()
+        lines.append(
+            {
+                "around": peak,
+                "E": E,
+                "θ": theta,
+                "greatest median amplitude, mm": mm(highest["row_amplitude_median"]),
+                "at f_Ω": fixed(highest["f_omega"], 3),
+                "leave the limit at the worst speed, %": percent(unbounded),
+            }
+        )
     return table(lines)
 
 

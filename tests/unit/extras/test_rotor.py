@@ -5,6 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from bladerub.config.errors import ConfigError
 from bladerub.extras.plots.rotor import rotor
 from bladerub.extras.rotor import pattern, summary
 from bladerub.extras.rotor.plan import Combination, Plan, read_plan
@@ -33,6 +34,22 @@ def test_draws_are_those_of_their_number_whatever_the_others_and_a_plan_may_have
     assert "length_scatter: [5.0e-5]" in text
     (tmp_path / "plan.yaml").write_text(text.replace("length_scatter: [5.0e-5]", "length_scatter: [50 µm]"))
     assert read_plan(tmp_path / "plan.yaml", config) == plan
+
+
+@pytest.mark.parametrize(
+    ("typed", "instead", "problem"),
+    [
+        ("casing: 2nd, E: 20, K: 0.5", "casing: 3rd, E: 20, K: 0.5", 'groups.harder.casing = "3rd": must be'),
+        ("[0.2, 0.344]", "[0.2, 0.9]", r"groups.harder.f_omega\[1\] = 0.9: must be at most"),
+        ("[0.2, 0.344]", "[0.2, 0.200001]", "groups.harder.f_omega: 0.2 and 0.200001 would both be"),
+    ],
+)
+def test_a_plan_is_of_casings_and_speeds_of_the_study(config, tmp_path, typed, instead, problem):
+    text = (ROOT / "config" / "rotor.yaml").read_text()
+    assert typed in text
+    (tmp_path / "plan.yaml").write_text(text.replace(typed, instead))
+    with pytest.raises(ConfigError, match=rf"plan.yaml:\d+: {problem}"):
+        read_plan(tmp_path / "plan.yaml", config)
 
 
 def test_the_distribution_of_known_draws():

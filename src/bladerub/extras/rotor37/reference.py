@@ -18,9 +18,6 @@ REFERENCE = "reference"
 VARIATIONS = ("step", "modes", "mesh", "nodes")
 """The sets whose differences from them are the uncertainty."""
 
-COLUMNS = ["number", "value", "unit", "uncertainty", "resolution", *(f"by_{name}" for name in VARIATIONS)]
-"""Columns of a table of reference numbers."""
-
 
 def plan() -> dict[str, Config]:
     """Return the config of each set of the plan, laid over the paper's study, whatever that at work is."""
@@ -43,4 +40,5 @@ def with_uncertainty(numbers: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
         table[f"by_{name}"] = numbers[name].set_index("number").value - table.value
     changes = table.drop(columns=["value", "unit"])
     table["uncertainty"] = np.sqrt((changes**2).sum(axis=1, skipna=False))
-    return table.dropna().reset_index()[COLUMNS]
+    changed = [f"by_{name}" for name in VARIATIONS]
+    return table.dropna().reset_index()[["number", "value", "unit", "uncertainty", "resolution", *changed]]
