@@ -70,30 +70,19 @@ def summary(
     part of each claim of the plan; shares are of the samples that have a verdict.
     """
     part_of = {claim: part.name for part in plan.parts.values() for claim in part.claims}
+    ids = [id_ for id_ in _TITLES if claim_of(id_) in part_of]
+    parts = pd.Series({id_: part_of[claim_of(id_)] for id_ in ids})
     own_values, drawn = (verdicts["sample"] == REFERENCE), cost[cost["set"] != REFERENCE]
-    reference = verdicts[own_values].set_index("id").holds
     of_part = drawn.groupby("part")[["runs", "cpu_s"]].median()
-    shares = pd.crosstab(verdicts.id[~own_values], verdicts.holds[~own_values])
-    shares = shares.reindex(index=_TITLES, columns=SCORE, fill_value=0)
-    rows = []
-    for id_, counts in shares.iterrows():
-        if claim_of(id_) not in part_of:
-            continue
-        part, n_samples = part_of[claim_of(id_)], counts.sum()
-        verdict_indices = sensitivity[(sensitivity.id == id_) & (sensitivity.output == VERDICT)]
-        deciding = verdict_indices[verdict_indices.total >= DECIDES].sort_values("total", ascending=False)
-        rows.append(
-            {
-                "id": id_,
-                "claim": _TITLES[id_],
-                "part": part,
-                "samples": n_samples,
-                **{f"{word}_share": counts[word] / n_samples if n_samples else np.nan for word in SCORE},
-                "reference": reference.get(id_, ""),
-                "predicted": verdict_indices.predicted.iloc[0] if len(verdict_indices) else np.nan,
-                "decided_by": ", ".join(f"{row.factor} {row.total:.2f}" for row in deciding.itertuples()),
-                "runs_per_sample": of_part.runs[part],
-                "cpu_s_per_sample": of_part.cpu_s[part],
-            }
-        )
-    return pd.DataFrame(rows)
+    counts = pd.crosstab(verdicts.id[~own_values], verdicts.holds[~own_values])
+    counts = counts.reindex(index=ids, columns=SCORE, fill_value=0)
+    of_verdict = sensitivity[sensitivity.output == VERDICT]
+    deciding = of_verdict[of_verdict.total >= DECIDES].sort_values("total", ascending=False)
+    deciding = deciding.factor.str.cat(deciding.total.map("{:.2f}".format), " ").groupby(deciding.id)
+    table = pd.DataFrame({"claim": _TITLES, "part": parts, "samples": counts.sum(axis=1)}).loc[ids]
+    table = table.join(counts.div(table.samples, axis=0).add_suffix("_share"))
+    table["reference"] = verdicts[own_values].set_index("id").holds
+    table["predicted"] = of_verdict.groupby("id").predicted.first()
+    table["decided_by"] = deciding.agg(", ".join)
+    table["runs_per_sample"], table["cpu_s_per_sample"] = parts.map(of_part.runs), parts.map(of_part.cpu_s)
+    return table.fillna({"reference": "", "decided_by": ""}).rename_axis("id").reset_index()
