@@ -26,7 +26,7 @@ from bladerub.blade.validation import read_valid_blade
 from bladerub.config.quantities import checked_number
 from bladerub.io import tables
 from bladerub.io.equality import equal
-from bladerub.io.optional import package
+from bladerub.io.errors import package
 from bladerub.io.provenance import provenance
 from bladerub.settings.fields import Speed
 from bladerub.settings.study import Config

@@ -2,10 +2,12 @@
 
 import copyreg
 import errno
+import importlib
 import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import ModuleType
 from typing import Any
 
 from bladerub.plugins import MissingPart
@@ -35,6 +37,20 @@ class BadInput(ValueError):
     def __reduce__(self) -> tuple:
         """Pickle the message as it is: a subclass may be made of other arguments."""
         return copyreg.__newobj__, (type(self), *self.args), vars(self)
+
+
+class MissingPackage(BadInput, ImportError):
+    """A package that is needed here and is not installed; the message has the command that installs it."""
+
+
+def package(module: str, extra: str) -> ModuleType:
+    """Import a `module` that the `extra` of this package brings; raises `MissingPackage` without it."""
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name != module.partition(".")[0]:
+            raise
+        raise MissingPackage(f"needs {error.name}: pip install 'bladerub[{extra}]'") from None
 
 
 def message_for(error: OSError | BadInput | MissingPart) -> str:

@@ -42,38 +42,28 @@ def write(
     variables: Mapping[str, Variable],
     attributes: Mapping[str, Any],
     origin: Mapping[str, str] = MappingProxyType({}),
-    repeated: Set[str] = frozenset(),
 ) -> str:
     """Write datasets and attributes (numbers and strings) by name to `path`, whole or not at all.
 
-    `origin` are more attributes, from `bladerub.io.provenance.provenance`. They and what is named in
-    `repeated` are the same in many files, and not written one by one. Returns the checksum of the file, as
-    of `bladerub.io.checksum.file_checksum`. Raises `ValueError` if two variables disagree on the length of a
-    dimension.
+    `origin` are more attributes, from `bladerub.io.provenance.provenance`. Returns the checksum of the file,
+    as of `bladerub.io.checksum.file_checksum`. Raises `ValueError` if two variables disagree on the length of
+    a dimension.
     """
     data = {name: np.asarray(variable.data) for name, variable in variables.items()}
-    constant = {key: value for key, value in attributes.items() if key in repeated} | dict(origin)
-    blank, start = _blank(
+    blank = _blank(
         tuple(
             (name, variable.dims, data[name].shape, data[name].dtype.str, variable.units, variable.long_name)
             for name, variable in variables.items()
         ),
         tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items()),
-        tuple((name, values.tobytes()) for name, values in data.items() if name in repeated),
-        tuple(constant.items()),
+        tuple(origin.items()),
     )
-    image = bytearray(blank)
-    for name, place in start.items():
-        image[place : place + data[name].nbytes] = data[name].tobytes()
-    with h5py.File(h5py.h5f.open_file_image(image, flags=_READ_AND_WRITE)) as file:
+    with h5py.File(h5py.h5f.open_file_image(blank, flags=_READ_AND_WRITE)) as file:
         # past h5py's own indexing, which takes longer than the writing
         for key, value in attributes.items():
-            if key not in repeated:
-                attribute = h5py.h5a.open(file.id, key.encode())
-                attribute.write(np.asarray(value, attribute.dtype))
+            attribute = h5py.h5a.open(file.id, key.encode())
+            attribute.write(np.asarray(value, attribute.dtype))
         for name, values in data.items():
-            if name in repeated or name in start:
-                continue
             if values.dtype.kind == "U":
                 file[name][...] = values
             else:
@@ -87,48 +77,36 @@ def write(
 
 
 @lru_cache(maxsize=8)
-def _blank(layout: tuple, attributes: tuple, values: tuple, constant: tuple) -> tuple[bytes, dict[str, int]]:
-    """Make a file without values but those given: the rest takes several times as long as filling it.
+def _blank(layout: tuple, attributes: tuple, origin: tuple) -> bytes:
+    """Make a file without values but `origin`: the rest takes several times as long as filling it.
 
-    `layout` has name, dimensions, shape, type, unit and meaning of each dataset, `constant` are attributes
-    with their values. Returns the file, and where in it the values of a dataset go that is neither compressed
-    nor text.
+    `layout` has name, dimensions, shape, type, unit and meaning of each dataset.
     """
-    contents = dict(values)
     with h5py.File(io.BytesIO(), "w") as file:
         for key, kind in attributes:
             file.attrs[key] = "" if "U" in kind else np.zeros((), kind)
         file.attrs[CHECKSUM] = np.bytes_(checksum.BLANK)
-        for key, value in constant:
-            file.attrs[key] = value
-        lengths: dict[str, int] = {}
+        file.attrs.update(origin)
         coordinates_first = sorted(layout, key=lambda entry: entry[1] != (entry[0],))
         for name, dims, shape, kind, units, long_name in coordinates_first:
             if len(shape) != len(dims):
                 raise ValueError(f"{name}: {len(shape)} dimensions, but named {dims}")
             dataset = _dataset(file, name, shape, np.dtype(kind), units, long_name)
             if dims == (name,):
-                lengths[name] = shape[0]
                 dataset.make_scale(name)
                 continue
             for axis, dim in enumerate(dims):
-                if lengths.setdefault(dim, shape[axis]) != shape[axis]:
-                    raise ValueError(f"{name}: dimension {dim} has {shape[axis]}, not {lengths[dim]} entries")
                 if dim not in file:
-                    index = np.arange(lengths[dim])
-                    scale = _dataset(file, dim, index.shape, index.dtype, "1", f"index along {dim}")
-                    scale[...] = index
-                    scale.make_scale(dim)
-                dataset.dims[axis].attach_scale(file[dim])
-        start = {}
-        for name, _, shape, kind, *_ in layout:
-            if name in contents:
-                file[name][...] = np.frombuffer(contents[name], kind).reshape(shape)
-            elif file[name].chunks is None and "U" not in kind and math.prod(shape):
-                file[name][...] = np.zeros(shape, kind)  # or it has no place yet
-                start[name] = file[name].id.get_offset()
+                    index = np.arange(shape[axis])
+                    numbers = _dataset(file, dim, index.shape, index.dtype, "1", f"index along {dim}")
+                    numbers[...] = index
+                    numbers.make_scale(dim)
+                scale = file[dim]
+                if scale.size != shape[axis]:
+                    raise ValueError(f"{name}: dimension {dim} has {shape[axis]}, not {scale.size} entries")
+                dataset.dims[axis].attach_scale(scale)
         file.flush()
-        return file.id.get_file_image(), start
+        return file.id.get_file_image()
 
 
 def _dataset(

@@ -1,7 +1,7 @@
 """Runs on disk: one HDF5 file a run, or several runs in one, with a prefix before the names of each."""
 
 from collections.abc import Mapping, Set
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -42,12 +42,6 @@ _COUNTERS = (
 
 MAPPED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
 """What the map of a coating needs of each run."""
-
-_REPEATED = {"node", "angle", "spectrum_order", "revolution_number", "revolution"} | {
-    *(field.name for field in fields(CoatingCase)),
-    *("revolutions", "scheme", "damping_ratio", "layer_thickness", "element_law"),
-}
-"""Datasets and attributes that are the same in most runs of a coating."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +121,7 @@ def datasets() -> dict[str, tuple[tuple[str, ...], str, str]]:
 
 def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> None:
     """Write one run to `path`, whole or not at all; `origin` is of `bladerub.io.provenance.provenance`."""
-    hdf5.write(path, *joined({"": run}), origin, _REPEATED)
+    hdf5.write(path, *joined({"": run}), origin)
 
 
 def write_runs(path: str | Path, runs: Mapping[str, StoredRun], origin: Mapping[str, str]) -> None:

@@ -9,9 +9,8 @@ import xarray as xr
 from bladerub.io import errors, hdf5
 from bladerub.io.checksum import file_checksum
 from bladerub.io.equality import equal
-from bladerub.io.errors import DamagedFile
+from bladerub.io.errors import DamagedFile, MissingPackage, package
 from bladerub.io.hdf5 import Variable
-from bladerub.io.optional import MissingPackage, package
 
 VARIABLES = {
     "angle": Variable(("angle",), np.linspace(0, 6, 5), "rad", "casing angle"),
@@ -31,15 +30,14 @@ def test_xarray_opens_the_file(tmp_path):
         assert dataset.energy == 3.5
 
 
-def test_files_with_repeated_values_hold_their_own(tmp_path):
+def test_files_of_the_same_layout_hold_their_own_values(tmp_path):
     text = Variable(("node",), np.array(["tip", "Bürste"]), "1", "name of a node")
     long = Variable(("step",), np.arange(2000.0), "m", "peak")  # compressed
     numbers = VARIABLES | {"peak": long}
-    for n in (1, 2, 2):  # the third from the image of the second
+    for n in (1, 2):  # the second from the blank of the first
         changed = {name: replace(each, data=each.data * n) for name, each in numbers.items()}
         attributes = {"casing": f"casing {n}", "status": f"status {n}", "n": n, "E": 2.0 * n}
-        repeated = {"angle", "peak", "name", "casing", "n", "unknown"}
-        hdf5.write(tmp_path / "file.h5", changed | {"name": text}, attributes, repeated=repeated)
+        hdf5.write(tmp_path / "file.h5", changed | {"name": text}, attributes)
         data, told = hdf5.read(tmp_path / "file.h5")
         for name, each in changed.items():
             np.testing.assert_array_equal(data[name], each.data)
@@ -82,7 +80,7 @@ def test_a_file_does_not_depend_on_those_before(tmp_path):
     def write(name, n):
         variables = VARIABLES | {"energy": replace(VARIABLES["energy"], data=float(n))}
         attributes = {"status": "x" * n, "n": n, "casing": "2nd"}
-        return hdf5.write(tmp_path / name, variables, attributes, repeated={"angle", "casing"})
+        return hdf5.write(tmp_path / name, variables, attributes)
 
     first = write("first.h5", 3)
     write("between.h5", 50)

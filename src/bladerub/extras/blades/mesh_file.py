@@ -13,7 +13,7 @@ import numpy as np
 from bladerub.extras.blade_meshes import EDGES
 from bladerub.extras.blades import deck_mesh, origin
 from bladerub.extras.blades.deck_mesh import Content
-from bladerub.io.optional import package
+from bladerub.io.errors import package
 
 meshio = package("meshio", "mesh")
 

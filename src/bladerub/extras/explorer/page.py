@@ -15,7 +15,7 @@ from matplotlib.colors import to_hex
 
 from bladerub.extras.explorer import coating
 from bladerub.extras.explorer.coating import mm
-from bladerub.io.optional import package
+from bladerub.io.errors import package
 from bladerub.io.provenance import software
 from bladerub.plots import bins, style, titles
 from bladerub.plots.scales import ORDERS

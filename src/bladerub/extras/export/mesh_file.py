@@ -8,7 +8,7 @@ import numpy as np
 from bladerub.blade.surface import boundary_faces
 from bladerub.extras.blade_meshes import NAMES
 from bladerub.io import atomic
-from bladerub.io.optional import package
+from bladerub.io.errors import package
 
 meshio = package("meshio", "mesh")
 

@@ -20,7 +20,7 @@ from bladerub.extras.export.mesh_file import block
 from bladerub.extras.export.recording import Recording
 from bladerub.extras.rows.spec import Row
 from bladerub.io import hdf5
-from bladerub.io.optional import package
+from bladerub.io.errors import package
 
 if TYPE_CHECKING:
     from bladerub.extras.stress.nodal import NodalStress

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.extras.variations.settings import FEWEST
-from bladerub.io.optional import package
+from bladerub.io.errors import package
 
 openturns = package("openturns", "uq")
 

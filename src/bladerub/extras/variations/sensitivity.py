@@ -14,7 +14,7 @@ import numpy as np
 
 from bladerub.extras.variations.emulator import Predicted, compared, from_others
 from bladerub.extras.variations.settings import FEWEST
-from bladerub.io.optional import package
+from bladerub.io.errors import package
 
 openturns = package("openturns", "uq")
 
