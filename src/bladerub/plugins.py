@@ -24,7 +24,10 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``SOLVERS``     what computes runs instead of the processor, by the name in ``solver.device``
 ``COATINGS``    functions of a config that list coatings which are run on request besides its own
 ``COSTS``       what further jobs of a coating cost: functions of config and coating that return a number of
-                runs at its speeds, by the name of the rule (`bladerub.workflow.cores`)
+                runs at its speeds, by the name of the rule
+``SCHEDULES``   what divides the cores of a machine among the jobs: functions of a config that return what has
+                `threads` of a rule, a coating and a number of cores or None, and `priority`, below 1, of a
+                coating
 ``SECTIONS``    keys of the config by their path, such as ``blade.source``, each with its type: a model
                 or an annotated type (`bladerub.settings.fields`). One with a default is in every config,
                 and one below another that plugs in is a key of that. ``casings.<key>`` is a kind of

@@ -5,10 +5,9 @@ from functools import cache
 
 from bladerub.blade.model import n_interface
 from bladerub.contact.laws import law_digest
-from bladerub.study.grid import case_from_name, element_law, speeds
+from bladerub.study.grid import case_from_name, element_law
 from bladerub.study.plan import coating_plan, growth_key
 from bladerub.contact.sources import solver_digest
-from bladerub.workflow.cores import costs_of, priority_of, threads_for
 
 
 @cache
@@ -23,18 +22,18 @@ def minutes_for(runs, attempt):
 
 
 @cache
-def job_costs():
-    return costs_of(STUDY)
+def schedules():
+    """What divides the cores among the jobs; without it all have one, and none comes first."""
+    return [schedule_of(STUDY) for schedule_of in plugins.loaded("SCHEDULES").values()]
 
 
-def share_of_cores(cost):
-    """Threads of a job by its part of what the whole study costs."""
-    return threads_for(cost, job_costs().total, workflow.resource_settings.cores)
+def threads_of(rule, coating):
+    cores = workflow.resource_settings.cores
+    return max((schedule.threads(rule, coating, cores) for schedule in schedules()), default=1)
 
 
-def coating_threads(wildcards):
-    # also one that is run on request
-    return share_of_cores(job_costs().runs.get(wildcards.coating, len(speeds(STUDY))))
+def coating_priority(wildcards):
+    return max((schedule.priority(wildcards.coating) for schedule in schedules()), default=0)
 
 
 def coating_minutes(wildcards, attempt):
@@ -83,10 +82,10 @@ rule coating:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
-    priority: lambda wildcards: priority_of(wildcards.coating, job_costs())
+    priority: coating_priority
     group:
         "rubs"
-    threads: coating_threads
+    threads: lambda wildcards: threads_of("coating", wildcards.coating)
     resources:
         mem_mb=memory_mb,  # 240 measured, and two Pythons of Snakemake
         runtime=coating_minutes,

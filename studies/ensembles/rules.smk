@@ -1,13 +1,7 @@
 # The runs at the peaks, and those that claims name, repeated from slightly different starts: the bands of peaks, runs
 # and verdicts. Part of `all` unless the config wants no members.
-from bladerub.workflow.cores import BEGUN
-
 ENSEMBLE = f"{RESULTS}/ensembles/{{coating}}.h5"
 MEMBERS = f"{RESULTS}/runs/{{coating}}/ensemble/manifest.tsv"
-
-
-def ensemble_threads(wildcards):
-    return share_of_cores(job_costs().further["ensemble"][wildcards.coating])
 
 
 rule ensemble:
@@ -25,10 +19,10 @@ rule ensemble:
         f"{RESULTS}/logs/ensemble/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/ensemble/{{coating}}.tsv"
-    priority: BEGUN  # the longest job of the study is one of these
+    priority: 1  # above those of coatings: the longest job of the study is one of these
     group:
         "rubs"
-    threads: ensemble_threads
+    threads: lambda wildcards: threads_of("ensemble", wildcards.coating)
     resources:
         mem_mb=memory_mb,
         runtime=coating_minutes,

@@ -1,1 +1,1 @@
-"""What the workflow itself needs: the start of an invocation and of a job, progress, cost."""
+"""What the workflow itself needs: the start of an invocation and of a job, and progress."""

@@ -9,12 +9,10 @@ import pandas as pd
 import pytest
 from matplotlib.image import imread
 
-from bladerub.config import read as configuration
 from bladerub.io import tables
 from bladerub.plots import style
 from bladerub.study.job import RunDone
 from bladerub.workflow import outputs
-from bladerub.workflow.cores import costs_of, priority_of, threads_for
 from bladerub.workflow.progress import JobProgress
 
 SCRIPT = """
@@ -79,21 +77,6 @@ def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need(
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
-
-
-@pytest.mark.parametrize(
-    ("cost", "cores", "threads"), [(1, 16, 1), (1, 64, 5), (10, 4, 3), (100, 4, 4), (10, None, 1)]
-)
-def test_a_job_larger_than_the_share_of_a_core_has_more_threads(cost, cores, threads):
-    assert threads_for(cost, 100, cores) == threads
-
-
-def test_the_study_begins_with_the_coating_of_fig_6_the_rigid_casing_and_the_stiffest_coating():
-    """The largest ensembles and the slowest runs: either would otherwise end long after all else."""
-    costs = costs_of(configuration.read("config/config.yaml", command_line={}))
-    *first, third = sorted(costs.runs, key=lambda coating: -priority_of(coating, costs))[:3]
-    assert first == ["2nd5nd_E11_K0.5_theta0", "2nd_rigid_mu0"]
-    assert third.startswith("2nd_E20_")
 
 
 class Terminal(io.StringIO):

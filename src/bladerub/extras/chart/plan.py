@@ -19,11 +19,11 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.extras.chart.point import ChartSpeeds, nearest_speeds
+from bladerub.extras.cores import run_cost
 from bladerub.extras.job_times import GROWING, SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
-from bladerub.workflow.cores import run_cost
 
 CORES = 2
 """Cores of the minutes if the config does not say: those of ``snakemake -j2``."""

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.extras import inventory, job_times
+from bladerub.extras.cores import costs_of
 from bladerub.io.errors import message_for
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases
 from bladerub.study.plan import CoatingPlan, coating_plan
-from bladerub.workflow.cores import costs_of
 
 
 def announce(

@@ -19,9 +19,6 @@ ON_RIGID_CASING = 7
 STIFF, EXPONENT = 12.0, 0.6
 """E / f_omega from which on the time of a run grows, as its steps do, and the power by which it does."""
 
-BEGUN = 1
-"""Priority of the further jobs of a coating: they come before the runs of any other."""
-
 
 class Costs(NamedTuple):
     """What the jobs of each coating of a study cost, by its name, in runs on a soft coating."""
@@ -34,25 +31,25 @@ class Costs(NamedTuple):
         """Of the whole study."""
         return sum(self.runs.values()) + sum(sum(costs.values()) for costs in self.further.values())
 
+    def threads(self, rule: str, coating: str, cores: int | None) -> int:
+        """Return the threads of the job of a rule and a coating, on so many `cores` (None: not known).
 
-def threads_for(cost: float, total: float, cores: int | None) -> int:
-    """Threads of a job that has `cost` of the `total` of all jobs, on so many `cores` (None: not known).
+        The coating may be one that is run on request. One, unless the job is a large part of what a core has
+        to do: it would end long after all others.
+        """
+        if not cores:
+            return 1
+        cost = self.further.get(rule, self.runs).get(coating, min(self.runs.values()))
+        return max(1, min(cores, math.ceil(FEWEST * cost / self.total * cores - 1)))
 
-    One, unless the job is a large part of what a core has to do: it would end long after all others.
-    """
-    if not cores:
-        return 1
-    return max(1, min(cores, math.ceil(FEWEST * cost / total * cores - 1)))
+    def priority(self, coating: str) -> float:
+        """Priority, below 1, of the runs of a `coating`: the more it and what follows cost, the higher.
 
-
-def priority_of(coating: str, costs: Costs) -> float:
-    """Priority, below `BEGUN`, of the runs of a `coating`: the more it and what follows cost, the higher.
-
-    Those that take longest so come first and none of them is left at the end, with the other cores idle.
-    Zero for a coating that `costs` do not have.
-    """
-    of_coating = sum(part.get(coating, 0) for part in (costs.runs, *costs.further.values()))
-    return BEGUN * of_coating / (1 + costs.total)
+        Those that take longest so come first and none of them is left at the end, with the other cores idle.
+        Zero for a coating that is run on request.
+        """
+        of_coating = sum(part.get(coating, 0) for part in (self.runs, *self.further.values()))
+        return of_coating / (1 + self.total)
 
 
 def run_cost(E: float, f_omega: np.ndarray) -> np.ndarray:
