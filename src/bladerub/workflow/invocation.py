@@ -1,6 +1,5 @@
 """An invocation of the workflow: its config and studies, what it plans again, and what it clears away."""
 
-import re
 import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -156,13 +155,8 @@ def start(workflow: Any) -> None:
     Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
     calls it from its own, since Snakemake ignores that of a module. Raises `BadInput` for targets beside the
     study, if the results are of another config and the command line names none: they would follow on all of
-    that study. So it does where the jobs could not start.
+    that study. What cures Snakemake (``REMEDIES``) may raise it, too.
     """
-    if re.search(r"[\s'\"\\$`&;|<>()*?[\]!]", sys.executable):
-        raise BadInput(
-            f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the "
-            "environment in a folder without spaces and special characters (that of the study may have them)"
-        )
     ((results, laid_over, begin),) = _planned
     targets = set(workflow.dag_settings.targets) - {"all"}
     if targets and (made_with := _made_with(results, laid_over)):

@@ -81,12 +81,6 @@ def test_the_rules_do_not_import_the_compiler():
     assert subprocess.check_output([sys.executable, "-c", program], text=True) == "False\n"
 
 
-def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflow_with, monkeypatch):
-    monkeypatch.setattr(sys, "executable", "/home/two words/.venv/bin/python")
-    with pytest.raises(BadInput, match="two words"):
-        invocation.start(workflow_with())
-
-
 def test_a_study_without_its_extra_is_left_out(tmp_path):
     for name, extra in (("one", "cost.jobs"), ("two", "nowhere.table"), ("three", "chart.stress")):
         (tmp_path / "studies" / name / "scripts").mkdir(parents=True)

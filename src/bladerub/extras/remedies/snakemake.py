@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import signal
 import sys
 import threading
@@ -12,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.extras.remedies import claims
+from bladerub.io.errors import BadInput
 
 _SECOND_INTERRUPT = 5.0  # s
 
@@ -41,8 +43,14 @@ def begin() -> None:
 def start(workflow: Any, results: Iterable[str]) -> None:
     """Claim the files of Snakemake's `workflow`, and be ready for what ends it.
 
-    Files of the future in the folders `results` become of now. Raises as `bladerub.extras.remedies.claims`.
+    Files of the future in the folders `results` become of now. Raises as `bladerub.extras.remedies.claims`,
+    and where the jobs could not start.
     """
+    if re.search(r"[\s'\"\\$`&;|<>()*?[\]!]", sys.executable):
+        raise BadInput(
+            f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the "
+            "environment in a folder without spaces and special characters (that of the study may have them)"
+        )
     persistence = workflow.persistence
     if claims.claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):
         print("bladerub: the last snakemake here was killed; what it had finished is kept", file=sys.stderr)

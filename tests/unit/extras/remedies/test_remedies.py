@@ -35,6 +35,12 @@ def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(workflow_with
     assert (workflow.scheduler.job_rate_limiter is not None) == kept
 
 
+def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflow_with, monkeypatch):
+    monkeypatch.setattr(sys, "executable", "/home/two words/.venv/bin/python")
+    with pytest.raises(BadInput, match="two words"):
+        remedies.start(workflow_with(), [])
+
+
 @pytest.fixture
 def handle():
     """Set handlers of signals for this test alone."""
