@@ -1,7 +1,6 @@
 """What models cannot say of a config: that its sections agree with each other."""
 
 import itertools
-import math
 import os
 from collections.abc import Callable, Collection, Iterator
 
@@ -91,39 +90,6 @@ def _accuracy_modes(config: Config) -> Iterator[str]:
     limit = 3 * n_interface(config) + per_speed  # coordinates that the reduced model has for sure
     if modes > limit:
         yield f"reduction.accuracy_modes = {modes}: must be at most {limit}, with {per_speed} modes_per_speed"
-
-
-@reads("results", "blade", "reduction", "casings", "contact", "coatings", "solver", "speeds")
-def _stable_steps(config: Config) -> Iterator[str]:
-    """Check central differences by the highest mode of the blade; its runs do if it is not built yet."""
-    solver = config.solver
-    key = next((name for name in ("max_time_step", "steps_per_element") if getattr(solver, name)), None)
-    if solver.scheme != "central_differences" or key is None:  # by the tolerance they are stable
-        return
-    from bladerub.blade.files import is_built  # as the rest, needed for this scheme alone
-    from bladerub.blade.validation import read_reduced_blade
-    from bladerub.contact.modes import mode_shapes_at
-    from bladerub.contact.steps import own_steps
-
-    model = study_folder() / config.results / "blade" / "reduced_model.h5"
-    try:
-        if not is_built(config, model):
-            return
-        blade, n_elements = read_reduced_blade(model), config.contact.elements
-    except OSError:  # damaged
-        return
-    scale = config.contact.plugged("scale", grid.UNSCALED).time
-    longest = (solver.max_time_step or math.inf) * scale
-    for f_omega in grid.speeds(config):
-        passage = 1 / (f_omega * blade.f1_hz * n_elements)
-        step = passage / own_steps(passage, solver.steps_per_element or 0, longest)
-        stable = 2 / mode_shapes_at(blade, f_omega)[0][-1]
-        if step >= stable:
-            yield (
-                f"solver.{key} = {getattr(solver, key):g}: central_differences needs steps below "
-                f"{stable / scale:.3g} s for the highest mode of this blade"
-            )
-            return
 
 
 @reads("contact")
@@ -262,6 +228,6 @@ def _crossings(config: Config) -> Iterator[str]:
 
 
 _CHECKS = (
-    *(_results, _blade, _accuracy_modes, _stable_steps, _tip, _tables, _depths, _runs, _revolutions),
+    *(_results, _blade, _accuracy_modes, _tip, _tables, _depths, _runs, _revolutions),
     *(_histories, _crossings),
 )

@@ -1,7 +1,5 @@
 from pathlib import Path
-from unittest.mock import Mock
 
-import numpy as np
 import pytest
 
 from bladerub.config import record
@@ -52,22 +50,6 @@ def test_of_thousands_of_problems_forty_are_reported(config, problems):
     lines = str(ConfigError(found)).splitlines()
     assert (len(lines), lines[-1]) == (41, "config: and 8960 problems more")
     assert "more" not in str(ConfigError(found[:40]))
-
-
-def test_central_differences_are_checked_by_the_blade_that_is_built(config, monkeypatch):
-    """Its highest mode in coordinates of 1 kg has 1e6 rad/s."""
-    n, f1 = 30, 2 * np.pi * 480.0
-    stiffness = np.diag(np.linspace(f1, 1e6, n) ** 2)
-    blade = Mock(f1_hz=480.0, mass=np.eye(n), stiffness=lambda f_omega: stiffness)
-    monkeypatch.setattr("bladerub.blade.files.is_built", lambda *_: True)
-    monkeypatch.setattr("bladerub.blade.validation.read_reduced_blade", lambda _: blade)
-    config["solver"]["max_time_step"] = 3e-6
-    validate(config)
-    config["solver"]["scheme"] = "central_differences"
-    with pytest.raises(ConfigError, match=r"solver.max_time_step = 3e-06: .* below 2e-06"):
-        validate(config)
-    config["solver"]["max_time_step"] = 1.9e-6
-    validate(config)
 
 
 def test_what_was_laid_over_the_config_comes_back(tmp_path, monkeypatch):

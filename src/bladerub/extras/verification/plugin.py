@@ -1,5 +1,6 @@
 """Errors of runs, of laws, of tables and of files."""
 
+AGREEMENTS = {"solver": "extras.verification.stability:problems"}
 FAULTS = {"files": "extras.verification.integrity:examine"}
 COMMANDS = {
     "verify": "extras.verification.command",
