@@ -37,6 +37,8 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``NOTES``       functions that list what is worth knowing of a valid config, a line each
 ``FORECASTS``   what says how much a plan of Snakemake computes, and how long: modules with `announce` and
                 `announce_at_exit`
+``BARS``        what shows the runs of a job as they are done: classes of the name of a coating and the folder
+                of its runs, with `show` for each (`bladerub.study.job.RunDone`) and `close`
 ``REMEDIES``    what cures Snakemake: modules with `begin`, called when an invocation is planned, and
                 `start`, called at its start with Snakemake's ``workflow`` and the folders of its results
 ``NEEDS``       names of other folders, without which a folder adds nothing

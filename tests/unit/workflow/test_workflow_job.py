@@ -1,5 +1,4 @@
 import ast
-import io
 import subprocess
 import sys
 from pathlib import Path
@@ -11,9 +10,7 @@ from matplotlib.image import imread
 
 from bladerub.io import tables
 from bladerub.plots import style
-from bladerub.study.job import RunDone
 from bladerub.workflow import outputs
-from bladerub.workflow.progress import JobProgress
 
 SCRIPT = """
 import sys
@@ -77,26 +74,3 @@ def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need(
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
-
-
-def done(number, total):
-    return RunDone(number, total, "0.1000.h5", "completed", 0.1, 0.2)
-
-
-def test_each_run_is_a_line_of_the_log_and_the_bar_is_on_a_terminal_only(tmp_path, monkeypatch, capsys):
-    terminal, file = Terminal(), io.StringIO()
-    for stream in (terminal, file):
-        monkeypatch.setattr(sys, "__stderr__", stream)
-        progress = JobProgress("2nd_E2_K0.5_theta0", tmp_path / "runs")
-        progress(done(1, 2))
-        progress(done(2, 2))
-        progress.finish([])
-        assert capsys.readouterr().err.splitlines()[:2] == [str(done(1, 2)), str(done(2, 2))]
-    assert "2nd_E2_K0.5_theta0" in terminal.getvalue()
-    assert "/2 |" in terminal.getvalue()
-    assert file.getvalue() == ""
