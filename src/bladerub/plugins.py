@@ -47,6 +47,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 
 import re
 from collections.abc import Iterator
+from difflib import get_close_matches
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -127,10 +128,7 @@ def _check(plugin: Any) -> None:
     for kind in filter(str.isupper, vars(plugin)):
         setting = f"{plugin.__file__}: {kind}"
         if _KINDS and kind not in _KINDS:
-            from difflib import get_close_matches
-
-            close = get_close_matches(kind, _KINDS, 1)
-            hint = f"did you mean {close[0]}?" if close else f"must be one of {', '.join(_KINDS)}"
-            raise MissingPart(f"{setting}: unknown, {hint}")
+            (close,) = get_close_matches(kind, _KINDS, 1, cutoff=0)
+            raise MissingPart(f"{setting}: unknown, did you mean {close}?")
         if kind != "NEEDS" and not isinstance(getattr(plugin, kind), dict):
             raise MissingPart(f"{setting}: must be a dictionary of names, each with its place")

@@ -132,7 +132,6 @@ Speed = Annotated[float, Unit("f1")]
 Modulus = Annotated[float, Unit("modulus_unit")]
 BladeLengths = Annotated[float, Unit("blade lengths")]
 Seed = Annotated[int, Field(ge=0, le=4294967295)]
-ConfigFile = Annotated[str, Field(pattern=r"^.+\.ya?ml$"), Form("the path of a .yaml file")]
 Name = Annotated[
     str,
     Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40),

@@ -11,10 +11,12 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from bladerub.io.errors import format_value
-from bladerub.settings.fields import ASCENDING, UNIQUE, ConfigFile, Form, Name, Number, Omitted, Section, Seed
+from bladerub.settings.fields import ASCENDING, UNIQUE, Form, Name, Number, Omitted, Section, Seed
 
 FEWEST = 16
 """Simulated sets below which there are no emulators and no indices."""
+
+ConfigFile = Annotated[str, Field(pattern=r"^.+\.ya?ml$"), Form("the path of a .yaml file")]
 
 CALIBRATION = Annotated[
     ConfigFile,
