@@ -39,6 +39,9 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
                 `announce_at_exit`
 ``BARS``        what shows the runs of a job as they are done: classes of the name of a coating and the folder
                 of its runs, with `show` for each (`bladerub.study.job.RunDone`) and `close`
+``RECORDS``     what remembers the config of results: a module with `notes`, called when an invocation is
+                planned with the folder of its results and what is laid over the config, `start`, called at
+                its start with Snakemake's ``workflow`` as well, and `read_config` for commands that name none
 ``REMEDIES``    what cures Snakemake: modules with `begin`, called when an invocation is planned, and
                 `start`, called at its start with Snakemake's ``workflow`` and the folders of its results
 ``NEEDS``       names of other folders, without which a folder adds nothing

@@ -3,8 +3,8 @@ import json
 import pytest
 from stand_in import COARSE
 
+from bladerub import plugins
 from bladerub.cli import inputs, main
-from bladerub.config import record
 from bladerub.io.folders import ROOT
 
 SHORT = """contact: {elements: 200}
@@ -79,7 +79,10 @@ def six_runs(folder, at_home):
 @pytest.fixture(autouse=True)
 def without_a_study(monkeypatch):
     """Leave out what made the results that this clone may hold: commands would read their config."""
-    read = record.read
-    monkeypatch.setattr(
-        record, "read", lambda results: None if results.is_relative_to(ROOT) else read(results)
-    )
+    for record in plugins.loaded("RECORDS").values():
+        read = record.read
+        monkeypatch.setattr(
+            record,
+            "read",
+            lambda results, read=read: None if results.is_relative_to(ROOT) else read(results),
+        )

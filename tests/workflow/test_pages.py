@@ -12,8 +12,8 @@ import pytest
 import yaml
 from workspace import ROOT, TINY, Workspace
 
-from bladerub.config import record
 from bladerub.config.read import load
+from bladerub.extras.records import record
 
 INSTALL = re.compile(
     r"python3 -m venv .venv && .venv/bin/pip install -r environment.txt(?: && )?(?:.venv/bin/pytest)?"

@@ -9,8 +9,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from bladerub import plugins
 from bladerub.config import read as configuration
-from bladerub.config import record
 from bladerub.io.errors import BadInput, DamagedFile, format_value, message_for
 from bladerub.io.folders import base_config, study_folder
 from bladerub.io.plain import plain
@@ -163,52 +163,20 @@ def read_config(options: argparse.Namespace) -> "Config":
 def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[str]]":
     """Read and check the study's config with the files of ``--config`` laid over it.
 
-    Without ``--config``, those are laid over it that made the results (`bladerub.config.record`). Returns the
-    notes of it as well.
+    Without ``--config``, what plugs in (``RECORDS``) lays over it what made the results. Returns the notes of
+    it as well.
     """
     base = base_config()
-    if options.config:
-        return configuration.read_with_notes(base, *options.config)
-    settings = configuration.load(base)
-    results = settings.get("results")
-    made_with = record.read(study_folder() / results) if isinstance(results, str) else None
-    if made_with is None:
-        config, notes = configuration.read_with_notes(base)
-        if others := _other_results(config):
-            print(f"bladerub {options.name}: with {base}, without results; others: {others}", file=sys.stderr)
-        return config, notes
-    files = [study_folder() / file for file in made_with.files]
-    for file in files:
-        if not file.is_file():
-            raise BadInput(
-                f"{file}: there is no such file, and {results}/{record.FILE} names it; "
-                f"name a config with --config FILE, {base} for the study without it"
-            )
-    print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
-    config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
-    law = getattr(config.contact.plugged("law"), "file", None)
-    named_law = settings["contact"].get("law", {}).get("file")
-    if law not in (None, named_law) and not getattr(options, "trust", True):
-        raise BadInput(
-            f"{config.results}/{record.FILE} names the law {law}, a program that this would execute: "
-            "read it, then add --trust, or name the config yourself with --config FILE"
-        )
-    return config, notes
+    records = [] if options.config else [*plugins.loaded("RECORDS").values()]
+    if records:
+        return records[0].read_config(options, base, study_folder())
+    return configuration.read_with_notes(base, *options.config)
 
 
 def add_trust_to(parser: Parser) -> None:
     """Add ``--trust`` to the options of a command that simulates."""
     text = "execute the law that the record of the results folder names, which may be from somebody else"
     parser.add_argument("--trust", action="store_true", help=text)
-
-
-def _other_results(config: "Config") -> str:
-    """Write the options that name the configs of other results; empty where this config has results."""
-    if (study_folder() / config.results / "runs").exists():
-        return ""
-    files = (file for place in ("*", "*/*") for file in study_folder().glob(f"{place}/{record.FILE}"))
-    records = filter(None, (record.read(file.parent) for file in files))
-    return " or ".join(str(made_with) for made_with in records if not made_with.command_line)
 
 
 def quantity(text: str) -> float | str:

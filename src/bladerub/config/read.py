@@ -2,10 +2,10 @@
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import reduce
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bladerub import plugins
 from bladerub.config import files
@@ -18,6 +18,13 @@ if TYPE_CHECKING:
 
 SCHEMA = ROOT / "config" / "schema.json"
 """What any part of bladerub reads in a config, for editors."""
+
+
+class LaidOver(NamedTuple):
+    """What is laid over the config of a study."""
+
+    files: Sequence[str]  # in order
+    command_line: Mapping[str, Any] = {}  # what ``snakemake --config`` was given
 
 
 def load(*paths: str | Path) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """An invocation of the workflow: its config and studies, what it plans again, and what it clears away."""
 
+import itertools
 import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -8,11 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from bladerub import plugins
-from bladerub.config import record
-from bladerub.config.read import is_whole, read_with_notes
-from bladerub.config.record import Record
+from bladerub.config.read import LaidOver, is_whole, read_with_notes
 from bladerub.io import atomic, checksum
-from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
+from bladerub.io.errors import DamagedFile, exit_on_error
 from bladerub.io.folders import CONFIG, ROOT, provide_for_unknown_user
 from bladerub.io.garbage import collect_seldom
 from bladerub.io.sources import extras_behind
@@ -20,7 +19,7 @@ from bladerub.settings.study import Config
 from bladerub.study.manifest import ManifestRow, Row, listed_files
 
 
-def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[str], Record]:
+def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[str], LaidOver]:
     """Read the config of the study with the lines of its files, which Snakemake does not keep.
 
     `workflow` is that of the Snakefile, `config` as Snakemake has it before any ``configfile``: what the
@@ -30,10 +29,10 @@ def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[
     laid over the config of the study. Raises `ConfigError` as `bladerub.config.read.read`.
     """
     settings = workflow.config_settings
-    base, laid_over, source = CONFIG, Record([*map(str, settings.configfiles)], settings.config), "--config"
+    base, laid_over, source = CONFIG, LaidOver([*map(str, settings.configfiles)], settings.config), "--config"
     if config and config != settings.overwrite_config:
         base = CONFIG if CONFIG.is_file() and is_whole(CONFIG) else ROOT / CONFIG
-        laid_over, source = Record((), config), "config of the module"
+        laid_over, source = LaidOver((), config), "config of the module"
     study, notes = read_with_notes(
         base,
         *laid_over.files,
@@ -116,60 +115,40 @@ def _print(line: str) -> None:
     print(f"bladerub: {line}", file=sys.stderr)
 
 
-def _made_with(results: str, laid_over: Record) -> Record | None:
-    """Read which config `results` were made with, where nothing is laid over that of the study.
-
-    None if a file of it is not there any more.
-    """
-    if laid_over.files or laid_over.command_line:
-        return None
-    made_with = record.read(Path(results))
-    return made_with if made_with and all(Path(file).is_file() for file in made_with.files) else None
-
-
-_planned: list[tuple[str, Record, Callable[[], None]]] = []
+_planned: list[tuple[str, LaidOver, Callable[[], None]]] = []
 
 
 def plan(
-    results: str, laid_over: Record, notes: Sequence[str] = (), begin: Callable[[], None] = lambda: None
+    results: str, laid_over: LaidOver, notes: Sequence[str] = (), begin: Callable[[], None] = lambda: None
 ) -> None:
     """Note what this invocation will `start`, with the results in this folder, and what makes them.
 
-    Prints which config the results were made with, if nothing is `laid_over` that of the study, and the
-    `notes` on the config, a line each. `begin` is called at the start if jobs run on this machine.
+    Prints what is known of the results (``RECORDS``), and the `notes` on the config, a line each. `begin` is
+    called at the start if jobs run on this machine.
     """
     collect_seldom()
     provide_for_unknown_user()
     for remedy in plugins.loaded("REMEDIES").values():
         remedy.begin()
     _planned[:] = [(results, laid_over, begin)]
-    if made_with := _made_with(results, laid_over):
-        notes = [f"{results} was made with {made_with.as_arguments()}; this is the study without it", *notes]
-    for note in notes:
+    of_results = (record.notes(results, laid_over) for record in plugins.loaded("RECORDS").values())
+    for note in itertools.chain(*of_results, notes):
         _print(note)
 
 
 def start(workflow: Any) -> None:
-    """Begin to compute what was planned: `prepare` its results folder, record the config of new results.
+    """Begin to compute what was planned: `prepare` its results folder.
 
     Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
-    calls it from its own, since Snakemake ignores that of a module. Raises `BadInput` for targets beside the
-    study, if the results are of another config and the command line names none: they would follow on all of
-    that study. What cures Snakemake (``REMEDIES``) may raise it, too.
+    calls it from its own, since Snakemake ignores that of a module. What plugs in (``REMEDIES``,
+    ``RECORDS``) may raise `BadInput`.
     """
     ((results, laid_over, begin),) = _planned
-    targets = set(workflow.dag_settings.targets) - {"all"}
-    if targets and (made_with := _made_with(results, laid_over)):
-        raise BadInput(
-            f"{' '.join(sorted(targets))}: add {made_with.as_arguments()}, as {results} was made, "
-            f"or --configfile {CONFIG} to compute that study first"
-        )
     for remedy in plugins.loaded("REMEDIES").values():
         remedy.start(workflow, [results])
     prepare(results)
-    planned = workflow.dag.needrun_jobs()
-    if any(Path(results) in Path(file).parents for job in planned for file in job.output):
-        record.write(results, laid_over.files, laid_over.command_line)
+    for record in plugins.loaded("RECORDS").values():
+        record.start(workflow, results, laid_over)
     if workflow.local_exec:  # a job on another machine shares nothing with this process
         begin()
 

@@ -1,11 +1,7 @@
-from pathlib import Path
-
 import pytest
 
-from bladerub.config import record
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
-from bladerub.config.record import Record
 from bladerub.io.folders import ROOT
 
 STUDY = ROOT / "config" / "config.yaml"
@@ -50,21 +46,3 @@ def test_of_thousands_of_problems_forty_are_reported(config, problems):
     lines = str(ConfigError(found)).splitlines()
     assert (len(lines), lines[-1]) == (41, "config: and 8960 problems more")
     assert "more" not in str(ConfigError(found[:40]))
-
-
-def test_what_was_laid_over_the_config_comes_back(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    files = [Path("config/config.yaml"), tmp_path / "config" / "quick.yaml", Path("/elsewhere/own.yaml")]
-    record.write("results", files, {"results": "results"})
-    found = record.read(tmp_path / "results")
-    assert found == Record(["config/quick.yaml", "/elsewhere/own.yaml"], {"results": "results"})
-    assert str(found) == "--config config/quick.yaml /elsewhere/own.yaml results=results"
-
-
-@pytest.mark.parametrize("text", [None, "", "[1]", '{"files": 1}', '{"files": [], "command_line": [1]}'])
-def test_nothing_was_laid_over_or_the_record_is_damaged(tmp_path, monkeypatch, text):
-    monkeypatch.chdir(tmp_path)
-    record.write("results", ["config/config.yaml"], {})
-    if text is not None:
-        (tmp_path / "results" / record.FILE).write_text(text)
-    assert record.read(tmp_path / "results") is None

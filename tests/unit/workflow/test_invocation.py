@@ -6,8 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from bladerub.config import record
-from bladerub.config.record import Record
+from bladerub.config.read import LaidOver
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import ROOT
 from bladerub.study.manifest import ManifestRow, write_manifest
@@ -28,44 +27,6 @@ def test_a_run_that_is_missing_or_cut_short_is_a_loss(tmp_path, name, size):
     loss = invocation.loss(manifest)
     assert loss is None if size == 30 else str(run) in loss
     assert invocation.loss(manifest.with_name("none.tsv")) is None
-
-
-@pytest.fixture
-def workflow_with(tmp_path, monkeypatch):
-    """What `plan` and `start` see of Snakemake's workflow."""
-    persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
-    monkeypatch.setattr(invocation, "_planned", [])
-    monkeypatch.setenv("PYTHONPATH", "")
-
-    def workflow(targets=()):
-        return SimpleNamespace(
-            scheduler=SimpleNamespace(job_rate_limiter=None),
-            local_exec=True,
-            persistence=persistence,
-            dag_settings=SimpleNamespace(targets=list(targets)),
-        )
-
-    return workflow
-
-
-def test_targets_of_results_of_another_config_are_refused(workflow_with, tmp_path):
-    record.write(tmp_path, ["config/quick.yaml"], {"solver": {"revolutions": 3}})
-    invocation.plan(str(tmp_path), Record(()))
-    made_with = """--configfile config/quick.yaml --config 'solver={"revolutions": 3}'"""
-    with pytest.raises(BadInput, match=re.escape(made_with)):
-        invocation.start(workflow_with(targets={"stress"}))
-
-
-@pytest.mark.parametrize(("output", "files"), [("docs/config.md", 1), ("{}/figures/fig01.png", 0)])
-def test_the_config_is_recorded_with_new_results_alone(workflow_with, monkeypatch, tmp_path, output, files):
-    monkeypatch.setattr(invocation.plugins, "loaded", lambda kind: {})
-    record.write(tmp_path, ["config/quick.yaml"], {})
-    invocation.plan(str(tmp_path), Record(("config/config.yaml",)))
-    workflow = workflow_with()
-    workflow.dag = SimpleNamespace(needrun_jobs=lambda: [SimpleNamespace(output=[output.format(tmp_path)])])
-    invocation.start(workflow)
-    made_with = record.read(tmp_path)
-    assert len(made_with.files if made_with else ()) == files
 
 
 def test_the_rules_do_not_import_the_compiler():
@@ -112,7 +73,7 @@ def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_pat
         study, notes, laid_over = invocation.read_config(workflow, given)
         assert (study.solver.revolutions, notes) == (30, [])
         assert list(laid_over.files) == [*map(str, files)]
-        assert by_file or laid_over == Record((), given)
+        assert by_file or laid_over == LaidOver((), given)
 
 
 def test_a_mistake_in_a_module_statement_is_said_to_be_there(monkeypatch):

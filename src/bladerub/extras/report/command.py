@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
-from bladerub.config import record
+from bladerub.config.read import LaidOver
+from bladerub.extras.records import record
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
@@ -44,9 +45,9 @@ def report(options: argparse.Namespace) -> None:
     from bladerub.io import atomic
 
     if missing := [path for path in results.files(config, folder) if not path.exists()]:
-        made_with = record.Record(options.config) if options.config else record.read(folder)
+        made_with = LaidOver(options.config) if options.config else record.read(folder)
         target = missing[0].relative_to(inputs.study_folder()).as_posix()
-        command = f"snakemake -j2 {made_with.as_arguments() if made_with else ''}".strip()
+        command = f"snakemake -j2 {record.as_arguments(made_with) if made_with else ''}".strip()
         raise BadInput(f"{target} is missing: the study is not finished; run {command}")
     with refused(ValueError):
         finished = results.read(config, folder)

@@ -14,7 +14,7 @@ import yaml
 from bladerub.blade.accuracy import doubts
 from bladerub.extras.report import answers, words
 from bladerub.extras.report.results import STRESS, Results, files
-from bladerub.io import optional
+from bladerub.io.errors import package
 from bladerub.io.folders import ROOT
 from bladerub.io.provenance import PREFIX, config_digest, software
 from bladerub.plots.campbell import campbell
@@ -29,7 +29,7 @@ _SAME = {"svg.hashsalt": "bladerub", "svg.fonttype": "path"}  # equal results ha
 
 def build(results: Results, shown: Sequence[str], folder: Path) -> str:
     """Make the page, as HTML, with the maps of the coatings `shown`; it will be in `folder`."""
-    jinja = optional.package("jinja2", "study")
+    jinja = package("jinja2", "study")
     loader = jinja.PackageLoader(__package__, "")
     environment = jinja.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters |= vars(words)
