@@ -59,27 +59,18 @@ def message_for(error: OSError | BadInput | MissingPart) -> str:
         return str(error)
     if isinstance(error, DamagedFile):
         return f"{error}; delete it and run the same command again: it is made again, nothing else is lost"
-    prefix = "" if error.filename is None else f"{error.filename}: "
-    problem, remedy = error.strerror or str(error), ""
+    path, problem, remedy = error.filename or "", error.strerror or str(error), ""
     if error.errno in _FULL:
         problem = _FULL[error.errno]
         remedy = "; make room and run the same command again: what is finished is kept and not computed again"
     elif error.errno in _LOCKED:
         problem = f"locked by another program, or its disk has no locks ({problem})"
         remedy = "; close that program, or set HDF5_USE_FILE_LOCKING=FALSE"
-    elif error.errno in _FORBIDDEN and error.filename is not None and not _is_readable(error.filename):
+    elif error.errno in _FORBIDDEN and os.path.exists(path) and not os.access(path, os.R_OK):
         remedy = "; make it readable"
     elif error.errno in _FORBIDDEN:
         remedy = "; make it writable, or choose another folder with the key results of the config"
-    return f"{prefix}{problem}{remedy}"
-
-
-def _is_readable(path: str) -> bool:
-    """Return whether a file or folder may be read, or is not there, in a folder that may be entered."""
-    entry = os.R_OK | os.X_OK if os.path.isdir(path) else os.R_OK
-    return os.access(os.path.dirname(path) or ".", os.X_OK) and (
-        not os.path.lexists(path) or os.access(path, entry)
-    )
+    return f"{path}{': ' if path else ''}{problem}{remedy}"
 
 
 @contextmanager
