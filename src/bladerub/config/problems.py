@@ -78,10 +78,7 @@ def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
     path, kind = key_path(parts), mistake["type"]
     setting = f"{path} = {_in_yaml(value)}"
     if kind == "missing":
-        new = (
-            "" if len(parts) > 1 else " (a config of an older version? `bladerub new` writes one that has it)"
-        )
-        return f"{path}: missing, {key.right()}{new}"
+        return f"{path}: missing, {key.right()}"
     if kind == "extra_forbidden" and path == "extend":
         return f"{setting}: is a key no more, give --configfile both files, the one named here first"
     if kind == "extra_forbidden":
