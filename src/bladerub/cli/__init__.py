@@ -15,7 +15,7 @@ from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, exit_on_error, message_for
 from bladerub.io.folders import provide_for_unknown_user
-from bladerub.io.garbage import collect_seldom
+from bladerub.workflow.job import collect_seldom
 
 
 def parser() -> argparse.ArgumentParser:

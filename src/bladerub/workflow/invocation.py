@@ -13,10 +13,10 @@ from bladerub.config.read import LaidOver, is_whole, read_with_notes
 from bladerub.io import atomic, checksum
 from bladerub.io.errors import DamagedFile, exit_on_error
 from bladerub.io.folders import CONFIG, ROOT, provide_for_unknown_user
-from bladerub.io.garbage import collect_seldom
 from bladerub.io.sources import extras_behind
 from bladerub.settings.study import Config
 from bladerub.study.manifest import ManifestRow, Row, listed_files
+from bladerub.workflow.job import collect_seldom
 
 
 def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[str], LaidOver]:
