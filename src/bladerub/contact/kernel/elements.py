@@ -101,32 +101,35 @@ def rigid_surface(stator, position):
 
 
 @inlined
-def press(element, stator, tip, state, row, offset, approach):
+def press(element, stator, tip, state, row, offset, approach, fetch, lane):
     """Press the element in `row` under each node, but leave it as it is.
 
-    Returns its force (N), its stiffness (N/m), and the change of depth over which these hold (m).
+    `fetch` and `lane` are as of `linearise`. Returns its force (N), its stiffness (N/m), and the change of
+    depth over which these hold (m).
     """
-    entry = wrap(row, stator.n_elements) * LANES
-    worn = load(state.wear, entry)
-    depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
+    entry = wrap(row, stator.n_elements) * LANES + lane
+    worn = fetch(state.wear, entry)
+    depth = penetration(approach, relief(tip, offset), fetch(stator.initial_gap, entry), worn)
     force, _ = law.return_mapping(element, depth, worn)
     stiffness, linear = law.tangent(element, depth, worn)
     if LAYERED:
-        strength = load(state.strength, entry)
+        strength = fetch(state.strength, entry)
         force, stiffness = strength * force, strength * stiffness
     return force, stiffness, linear
 
 
 @inlined
-def linearise(stator, tip, state, position, rows, pose):
-    """Press the elements under each node by its profile, and sum up what they answer."""
-    element = load_fields(law.Element, stator.law)
-    force, stiffness, valid = broadcast(0.0), broadcast(0.0), broadcast(math.inf)
+def linearise(element, stator, tip, state, position, rows, pose, fetch, lane, zero):
+    """Press the elements under each node by its profile, and sum up what they answer.
+
+    With `load` as `fetch`, `lane` 0 and a vector `zero` of all nodes; with `read`, its lane and 0.0 of one.
+    """
+    force, stiffness, valid = zero, zero, zero + math.inf
     first, last = rows
     for row in range(first, last + 1):
         offset = (row + 0.5) - position
         share = coverage(tip, offset)
-        force_here, slope, linear = press(element, stator, tip, state, row, offset, pose)
+        force_here, slope, linear = press(element, stator, tip, state, row, offset, pose, fetch, lane)
         force = force + share * force_here
         stiffness = stiffness + share * slope
         valid = minimum(valid, linear)

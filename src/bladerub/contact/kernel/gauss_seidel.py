@@ -10,11 +10,11 @@ import numpy as np
 
 from bladerub.contact import law
 from bladerub.contact.friction import contact_force
-from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
+from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach
 from bladerub.contact.kernel.coulomb import mobilise
-from bladerub.contact.kernel.elements import LAYERED, rigid_surface, wrap
+from bladerub.contact.kernel.elements import linearise, rigid_surface
 from bladerub.contact.kernel.modal import FURTHER
-from bladerub.contact.tip import coverage, edge, relief
+from bladerub.contact.tip import edge
 from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import WIDTH, add_to, address_of, load, read, read_fields, store, write
 from bladerub.numerics.vectors import LANES
@@ -118,32 +118,17 @@ def _force_on(stator, tip, state, j, position, free_approach, further, complianc
 
 @inlined
 def resistance(stator, tip, state, j, position, approach, further, forces):
-    """Force (N) and stiffness (N/m) of the elements under node `j`, as `elements.linearise`.
+    """Force (N) and stiffness (N/m) of the elements under node `j`.
 
     A counterpart enters the force along the further coordinate in `forces` (24,).
     """
-    force = stiffness = 0.0
+    linear = node_linearisation(stator, tip, state, j, position, approach)
+    return linear.force, linear.stiffness
+
+
+@inlined
+def node_linearisation(stator, tip, state, j, position, pose):
+    """Press the elements under node `j`, as `elements.linearise`."""
     element = read_fields(law.Element, address_of(stator.law, j))
-    first = math.floor(position - tip.half_width)
-    last = math.floor(position + tip.half_width)
-    for i in range(first, last + 1):
-        offset = i + 0.5 - position
-        force_here, slope = press_one(element, stator, tip, state, i, j, offset, approach)
-        share = coverage(tip, offset)
-        force += share * force_here
-        stiffness += share * slope
-    return force, stiffness
-
-
-@within
-def press_one(element, stator, tip, state, i, j, offset, approach):
-    """Press the element in row `i` under node `j`, as `elements.press`; return its force and stiffness."""
-    entry = wrap(i, stator.n_elements) * LANES + j
-    worn = read(state.wear, entry)
-    depth = penetration(approach, relief(tip, offset), read(stator.initial_gap, entry), worn)
-    force, _ = law.return_mapping(element, depth, worn)
-    slope, _ = law.tangent(element, depth, worn)
-    if LAYERED:
-        strength = read(state.strength, entry)
-        force, slope = strength * force, strength * slope
-    return force, slope
+    rows = math.floor(position - tip.half_width), math.floor(position + tip.half_width)
+    return linearise(element, stator, tip, state, position, rows, pose, read, j, 0.0)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bladerub.contact import law
 from bladerub.contact.energy import FALLBACK, UNCONVERGED
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach
@@ -19,7 +20,7 @@ from bladerub.contact.kernel.elements import approach_at, linearise, pose_of, ro
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import APPROACH, Displacement, displaced, load_tip, store_tip
 from bladerub.numerics.machine_code import inlined
-from bladerub.numerics.memory import add_to_number, clear, load, store, store_fields
+from bladerub.numerics.memory import add_to_number, clear, load, load_fields, store, store_fields
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast
 
 TOLERANCE = 1e-11
@@ -49,6 +50,7 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
     forces of the step before is the first guess. `coulomb` is a constant where this is compiled into the
     loop. Returns whether the displacement is within the limit.
     """
+    element, zero = load_fields(law.Element, stator.law), broadcast(0.0)
     free = load_tip(u)  # u₀
     start = moved = free + load_tip(state.response)
     geometry = _geometry(tip, start, travel)  # eq. (7)
@@ -59,7 +61,9 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
     if tried:
         for _ in range(MAX_ITERATIONS):
             if not all_lanes(distance(tip, pose, linear_pose) <= valid):
-                linear = linearise(stator, tip, state, geometry.position, geometry.rows, pose)
+                linear = linearise(
+                    element, stator, tip, state, geometry.position, geometry.rows, pose, load, 0, zero
+                )
                 linear_pose, valid = pose, linear.valid
             moved = _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb)  # u₀ + C F
             change = moved - geometry.displacement

@@ -11,14 +11,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.contact import energy, law
+from bladerub.contact import energy
 from bladerub.contact.gap import is_above
 from bladerub.contact.kernel import accounting, elements, gauss_seidel, newton
 from bladerub.contact.kernel.modal import FURTHER
 from bladerub.contact.tip import coverage, edge, highest
 from bladerub.numerics.machine_code import inlined
-from bladerub.numerics.memory import add_to, address_of, load, load_fields, read_fields, store, write
-from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, minimum
+from bladerub.numerics.memory import add_to, load, store, write
+from bladerub.numerics.vectors import LANES, absolute, all_lanes, minimum
 
 COUNTERPARTS: dict[Callable, Callable] = {}
 """The functions below, each by that in whose place it is."""
@@ -86,16 +86,17 @@ def is_clear(tip, radial, tangential, approach, u, minimum_gap):
 
 
 @in_place_of(elements.linearise)
-def linearise(stator, tip, state, position, rows, pose):
+def linearise(element, stator, tip, state, position, rows, pose, fetch, lane, zero):
     """Sum up couple and moments as well."""
-    element = load_fields(law.Element, stator.law)
-    force, stiffness, valid = broadcast(0.0), broadcast(0.0), broadcast(math.inf)
-    couple, first_moment, second_moment = broadcast(0.0), broadcast(0.0), broadcast(0.0)
+    force, stiffness, valid = zero, zero, zero + math.inf
+    couple, first_moment, second_moment = zero, zero, zero
     first, last = rows
     for row in range(first, last + 1):
         offset = (row + 0.5) - position
         share, approach = coverage(tip, offset), pose.approach + pose.tilt * offset
-        force_here, slope, linear = elements.press(element, stator, tip, state, row, offset, approach)
+        force_here, slope, linear = elements.press(
+            element, stator, tip, state, row, offset, approach, fetch, lane
+        )
         force = force + share * force_here
         stiffness = stiffness + share * slope
         valid = minimum(valid, linear)
@@ -138,21 +139,11 @@ def answer(stator, state, linear, pose):
 
 @in_place_of(gauss_seidel.resistance)
 def resistance(stator, tip, state, j, position, approach, tilt, forces):
-    """Sum up the couple as well."""
-    force = stiffness = couple = 0.0
-    element = read_fields(law.Element, address_of(stator.law, j))
-    first = math.floor(position - tip.half_width)
-    last = math.floor(position + tip.half_width)
-    for i in range(first, last + 1):
-        offset = i + 0.5 - position
-        local_approach = approach + tilt * offset
-        force_here, slope = gauss_seidel.press_one(element, stator, tip, state, i, j, offset, local_approach)
-        share = coverage(tip, offset)
-        force += share * force_here
-        stiffness += share * slope
-        couple += share * offset * force_here
-    write(forces, FURTHER + j, stator.normal_factor * couple)
-    return force, stiffness
+    """Enter the couple as well."""
+    pose = Pose(approach, tilt)
+    linear = gauss_seidel.node_linearisation(stator, tip, state, j, position, pose)
+    write(forces, FURTHER + j, stator.normal_factor * linear.couple)
+    return linear.force, linear.stiffness
 
 
 # ---- the ledger (`bladerub.contact.kernel.accounting`)
