@@ -53,6 +53,11 @@ def law_digest(law: ElementLaw) -> dict[str, str]:
     return {} if law == PLASTIC else _plugged_in("law").law_digest(law)
 
 
+def compile_error(law: ElementLaw, error: Exception) -> Exception:
+    """Return what to raise where the compiler refuses a law with this error."""
+    return _plugged_in("law").compile_error(law, error)
+
+
 def module_of(law: ElementLaw) -> ModuleType:
     """Return the module of a law, whose functions are those of `bladerub.contact.law`."""
     return module_for(USUAL, "contact.law", law)

@@ -82,8 +82,7 @@ class History:
     def __init__(self, revolutions: int, n_elements: int):
         # Radial displacement of node 1, mean over the passage of each element, m
         self.displacement = np.empty((0, n_elements))
-        # Range of that displacement in each revolution, m
-        self.lowest, self.highest = np.empty((2, 0))
+        self.range = np.empty((0, 2))  # Lowest and highest of that in each revolution, m
         self.extend(revolutions)
         self.n_steps = self.n_contact_steps = 0
         self.revolutions_made = 0.0
@@ -91,10 +90,9 @@ class History:
 
     def extend(self, revolutions: int) -> None:
         """Make room for so many revolutions in all."""
-        more = revolutions - len(self.displacement)
-        self.displacement = np.pad(self.displacement, ((0, more), (0, 0)), constant_values=np.nan)
-        self.lowest, self.highest = (
-            np.pad(end, (0, more), constant_values=np.nan) for end in (self.lowest, self.highest)
+        more = (0, revolutions - len(self.displacement)), (0, 0)
+        self.displacement, self.range = (
+            np.pad(rows, more, constant_values=np.nan) for rows in (self.displacement, self.range)
         )
 
     def enter(self, progress: Progress, segment: Segment) -> None:
@@ -102,8 +100,8 @@ class History:
         simulation, revolution, first, last = segment
         self.n_steps += progress.n_steps
         self.n_contact_steps += progress.n_contact_steps
-        self.lowest[revolution] = np.fmin(self.lowest[revolution], progress.lowest)
-        self.highest[revolution] = np.fmax(self.highest[revolution], progress.highest)
+        lowest, highest = self.range[revolution]
+        self.range[revolution] = np.fmin(lowest, progress.lowest), np.fmax(highest, progress.highest)
         travel = first + progress.n_steps / simulation.steps_per_element
         self.revolutions_made = revolution + travel / self.displacement.shape[1]
         self.is_within_limit = progress.n_steps == (last - first) * simulation.steps_per_element
@@ -120,9 +118,8 @@ class History:
             message = f"the tip moved by more than {limit:g} m after {elapsed:.2f} revolutions"
         elif elapsed != revolutions:
             status, message = "stopped", f"another blade left the limit after {elapsed:.2f} revolutions"
-        lowest, highest = (  # no number where the first step of a revolution left the limit
-            np.where(np.isfinite(end), end, np.nan) for end in (self.lowest, self.highest)
-        )
+        # no number where the first step of a revolution left the limit
+        lowest, highest = np.where(np.isfinite(self.range), self.range, np.nan).T
         state, layer = simulation.state, simulation.layer
         ledger = energy.balance(rule, state, initial, simulation.angle_per_step)
         if not (np.isfinite(ledger.residual) and np.isfinite(state.wear).all()):

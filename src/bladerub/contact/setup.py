@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from types import ModuleType
 
+import numba
 import numpy as np
 from numba.core.errors import NumbaError
 
@@ -11,7 +12,7 @@ from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import MOST_STEPS
 from bladerub.contact.kernel.loop import Simulation
-from bladerub.contact.laws import element_parameters, module_for, module_of, motion
+from bladerub.contact.laws import compile_error, element_parameters, module_for, module_of, motion
 from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence
 from bladerub.contact.spec import PLASTIC, ElementLaw, RunSpec
@@ -26,26 +27,17 @@ from bladerub.contact.start import (
 from bladerub.contact.steps import own_steps, steps_per_element, with_steps
 from bladerub.contact.strips import element_area, element_passage
 from bladerub.contact.tip import edge
-from bladerub.io.errors import BadInput
 from bladerub.numerics.lanes import lanes_for
-from bladerub.numerics.machine_code import innermost
-from bladerub.numerics.memory import aligned
-
-_WRITTEN_IN = (
-    "its functions are marked elementwise, and written with + - * / > <= and where, maximum, minimum, "
-    "absolute and sqrt of bladerub.numerics.vectors"
-)
 
 
-def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
-    """Prepare a run from rest; raises `ValueError` as `bladerub.contact.run.simulate`."""
-    return set_up_modes(modes_at(blade, spec.f_omega, spec), blade, spec)
-
-
-def set_up_modes(
-    modes: Modes, blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE
+def set_up(
+    blade: ReducedBlade, spec: RunSpec, modes: Modes | None = None, seat: Seat = ALONE
 ) -> tuple[Recurrence, Simulation]:
-    """Prepare a run as `set_up`, with the modes at its speed."""
+    """Prepare a run from rest, by other `modes` than those of the blade at its speed where they are given.
+
+    Raises `ValueError` as `bladerub.contact.run.simulate`.
+    """
+    modes = modes or modes_at(blade, spec.f_omega, spec)
     coating, law = spec.coating, module_of(spec.coating.element_law)
     contact, passage = _contact(blade, spec), element_passage(blade, spec)
     n_steps = _n_steps(modes, contact, blade, spec)
@@ -53,14 +45,15 @@ def set_up_modes(
     tip = tip_record(blade, spec, seat)
     stator = stator_record(blade, spec, rule, seat)
     kernel = _kernel(modes.n_nodes, coating.element_law, spec.turns)
-    state = kernel("records").at_rest(rule.omega.size, coating.n_elements, _kept_by(law))
+    kept = law.Layer.numbers if hasattr(law, "Layer") else 0  # of each element
+    state = kernel("records").at_rest(rule.omega.size, coating.n_elements, kept)
     deflect(state, modes, rule, spec, tip)
     state = state._replace(**seat.coating)
     slope = tip.search_range / float(np.min(tip.radius - tip.limit))
     leap = n_steps // math.ceil(n_steps / MOST_STEPS)
     flight = kernel("free_flight").free_flight(rule, leap, slope, edge(tip))
     layer = None
-    if hasattr(law, "Layer"):
+    if kept:
         area = records.by_lane(element_area(blade, spec), modes.n_nodes)
         layer = law.Layer(law, coating, area, passage * coating.n_elements)
     simulation = kernel("loop").Simulation
@@ -73,32 +66,22 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
     That for profiles that turn is another one, that for a tip with more than eight nodes, and that for
     another law of the elements. Raises `BadInput` if that law cannot be compiled.
     """
-    kernel, n = _kernel(n_nodes, law, tip_turns), (3 if tip_turns else 2) * n_nodes
-    modes = Modes(np.ones(1), np.zeros((n, 1)), n_nodes)
-    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(np.ones(n - n_nodes), -1.0, 0.0))
-    ones = {name: np.ones(shape) for name, shape in kernel("records").shapes(rule.omega.size, 8).items()}
-    tip = records.Tip(*(ones.get(name, 1.0) for name in records.Tip._fields))
-    ones |= {"n_elements": 8, "is_rigid": False, "normal_factor": -1.0, "tangential_factor": 0.0}
-    stator = records.Stator(**{name: ones[name] for name in records.Stator._fields if name in ones})
-    flight = kernel("free_flight").free_flight(rule, 1, 0.0, 0.0)
-    state = kernel("records").at_rest(1, 8, _kept_by(module_of(law)))
-    modal, simulation = kernel("modal").pack(rule), kernel("loop").Simulation
+    loop = _kernel(n_nodes, law, tip_turns)("loop")
+    example = {np.ndarray: 0, int: 0, float: 0.0, bool: False}  # an array is read by its address
+    kinds = loop.Modal, loop.FreeFlight, records.Stator, records.Tip, loop.State
+    parts = (kind(*map(example.get, kind.__annotations__.values())) for kind in kinds)
+    arguments = loop.Records(*parts), 1, 0, 1, False, 0.0, 0
     try:
-        simulation(modal, flight, aligned(stator), aligned(tip), state, 1).advance(np.zeros(8))
+        loop.integrate.compile(tuple(map(numba.typeof, arguments)))
     except NumbaError as error:
         if law == PLASTIC:
             raise
-        raise BadInput(f"law {law.label}: cannot be compiled ({innermost(error)}); {_WRITTEN_IN}") from error
+        raise compile_error(law, error) from error
 
 
 def _kernel(n_nodes: int, law: ElementLaw, turns: bool) -> Callable[[str], ModuleType]:
     """Return what gives the modules of `bladerub.contact.kernel` for such a tip and law, by name."""
     return lambda name: module_for(lanes_for(n_nodes), f"contact.kernel.{name}", law, turns)
-
-
-def _kept_by(law: ModuleType) -> int:
-    """Numbers that the layer of a law keeps of each element."""
-    return law.Layer.numbers if hasattr(law, "Layer") else 0
 
 
 def time_step(blade: ReducedBlade, spec: RunSpec) -> float:

@@ -9,6 +9,7 @@ by it without running the law. The time loop is compiled with the law in it
 import ast
 import dis
 import hashlib
+import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -20,7 +21,10 @@ from bladerub import plugins
 from bladerub.contact.laws import NAMES
 from bladerub.contact.spec import PLASTIC, ElementLaw
 from bladerub.io import sources
+from bladerub.io.errors import BadInput
 from bladerub.io.folders import PACKAGE, study_folder
+
+_REASON = re.compile("can't resolve|No implementation|Unknown attribute|Invalid use")
 
 CONTRACT = (
     *("Element", "element", "return_mapping", "tangent", "elastic_force"),
@@ -60,6 +64,21 @@ def law_digest(law: ElementLaw) -> dict[str, str]:
     plugs_in = {} if law.source else {"law": hashlib.sha256(source.encode()).hexdigest()}
     imported = [name for name in sources.imports_in(source) if name.startswith("extras.")]
     return plugs_in | ({"law_imports": sources.digest_behind(*imported)} if imported else {})
+
+
+def compile_error(law: ElementLaw, error: Exception) -> BadInput:
+    """Return the error of a law that is refused: the innermost of what the compiler says for each caller."""
+    lines = str(error).splitlines()
+    reason = max(
+        filter(_REASON.search, lines), key=lambda line: len(line) - len(line.lstrip()), default=lines[0]
+    )
+    place = next((line.strip(" :") for line in lines if line.lstrip().startswith("File ")), "")
+    innermost = ", ".join(filter(None, (reason.strip(" :").removeprefix("TypingError: "), place)))
+    return BadInput(
+        f"law {law.label}: cannot be compiled ({innermost}); its functions are marked elementwise, and "
+        "written with + - * / > <= and where, maximum, minimum, absolute and sqrt of "
+        "bladerub.numerics.vectors"
+    )
 
 
 def law_of(entry: Mapping[str, Any]) -> ElementLaw:

@@ -6,14 +6,12 @@ of all sources that are compiled together, the number of lanes, and digests of w
 """
 
 import os
-import re
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
 import numba
 from numba.core.caching import FunctionCache
-from numba.core.errors import NumbaError
 from numba.extending import register_jitable
 
 from bladerub.io.errors import BadInput
@@ -32,18 +30,7 @@ within = register_jitable(**_WITHIN)
 inlined = register_jitable(**INLINED)
 """Decorate a function that compiled code inlines; for Python it stays as it is."""
 
-_REASON = re.compile("can't resolve|No implementation|Unknown attribute|Invalid use")
 _BESIDE = Path(__file__).parent / "__pycache__"
-
-
-def innermost(error: NumbaError) -> str:
-    """Say what the compiler could not do, and where: the innermost of what it repeats for each caller."""
-    lines = str(error).splitlines()
-    reason = max(
-        filter(_REASON.search, lines), key=lambda line: len(line) - len(line.lstrip()), default=lines[0]
-    )
-    place = next((line.strip(" :") for line in lines if line.lstrip().startswith("File ")), "")
-    return ", ".join(filter(None, (reason.strip(" :").removeprefix("TypingError: "), place)))
 
 
 class _Cache(FunctionCache):

@@ -8,6 +8,7 @@ import scipy.linalg
 from stand_in import made_blade
 
 from bladerub.contact import setup
+from bladerub.contact.kernel import loop
 from bladerub.contact.start import SEARCH_RANGE, Seat, minimum_gap, tip_record
 from bladerub.contact.strips import by_angle
 
@@ -172,3 +173,10 @@ def test_each_field_that_is_read_by_address_is_checked(blade, spec, kind):
             bad = records | {kind: records[kind]._replace(**{name: wrong})}
             with pytest.raises(ValueError, match=rf"\.{name}: "):
                 type(simulation)(*bad.values(), simulation.steps_per_element)
+
+
+def test_the_loop_is_compiled_for_the_records_of_runs(blade, spec):
+    setup.compile_kernel()
+    _, simulation = setup.set_up(blade, spec)
+    simulation.advance(np.zeros(spec.coating.n_elements))
+    assert len(loop.integrate.signatures) == 1

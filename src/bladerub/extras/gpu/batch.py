@@ -228,7 +228,7 @@ def finish(simulation: Simulation, output: Output, i: int) -> History | None:
     state.ledger[energy.REVERSED, 0] = counts["reversed_steps"]
     history = History(*output.displacement[i].shape)
     history.displacement[:] = output.displacement[i]
-    history.lowest[:], history.highest[:] = output.range[i].T
+    history.range[:] = output.range[i]
     history.n_steps, history.n_contact_steps = counts["steps"], counts["contact_steps"]
     history.is_within_limit = counts["status"] == COMPLETED
     history.revolutions_made = float(counts["revolutions"])

@@ -26,7 +26,7 @@ from bladerub.contact.modes import Modes, mode_shapes_at, modes_at
 from bladerub.contact.result import Outcome
 from bladerub.contact.run import History, Segment, integrate
 from bladerub.contact.schemes import Recurrence
-from bladerub.contact.setup import set_up_modes
+from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.passages.sweep_grid import SweepSpec
 
@@ -136,7 +136,7 @@ class _Sweep:
     def _stage(self, f_omega: float) -> _Stage:
         modes, (_, shapes) = modes_at(self.blade, f_omega, self.run), mode_shapes_at(self.blade, f_omega)
         run = replace(self.run, f_omega=f_omega)
-        return _Stage(modes, shapes, *set_up_modes(modes, self.blade, run))
+        return _Stage(modes, shapes, *set_up(self.blade, run, modes))
 
 
 def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:

@@ -27,7 +27,7 @@ from bladerub.contact.laws import module_for
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.run import History, Segment, run_result
-from bladerub.contact.setup import fixed_steps, set_up_modes
+from bladerub.contact.setup import fixed_steps, set_up
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.start import Seat
 from bladerub.contact.strips import element_area
@@ -170,7 +170,7 @@ class _Seat:
         self.row = int(position)  # of the shared coating, which it passes at the start
         self.modes = modes._replace(omega=modes.omega * row_blade.frequency_factors(modes.omega.size))
         seat = Seat(position - self.row, row_blade.length, coating)
-        self.rule, self.simulation = set_up_modes(self.modes, blade, self.spec, seat)
+        self.rule, self.simulation = set_up(blade, self.spec, self.modes, seat)
         self.initial = sum(energy.blade_energy(self.rule, self.simulation.state))
         self.history = History(spec.revolutions, n_elements)
 

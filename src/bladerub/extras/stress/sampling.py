@@ -19,7 +19,7 @@ from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.modes import mode_shapes_at, modes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import History, Segment, integrate, run_result
-from bladerub.contact.setup import set_up_modes
+from bladerub.contact.setup import set_up
 from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.machine_code import njit_on_disk
@@ -46,7 +46,7 @@ def simulate_sampled(
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     modes, (_, shapes) = modes_at(blade, spec.f_omega, spec), mode_shapes_at(blade, spec.f_omega)
-    rule, simulation = set_up_modes(modes, blade, spec)
+    rule, simulation = set_up(blade, spec, modes)
     ends = np.rint(np.linspace(0, n_elements, min(instants, n_elements) + 1)).astype(np.int64)
     n, groups, lanes = rule.omega.size, len(rule.tip) // rule.n_nodes, len(simulation.state.force[0]) // 3
     forces = np.add.outer(lanes * np.arange(groups), np.arange(rule.n_nodes)).ravel()
