@@ -5,6 +5,7 @@ element: the splitting of Strang (1968), of second order in the time of the pass
 """
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -54,7 +55,7 @@ class RowSimulation:
         self.first, self.begins, self.apart, self.at_once = np.array(first), np.array(begins), apart, at_once
         self.work = np.zeros(len(blades))
         self._kinds = blades[0].records
-        self._rows = Records(*map(rows_of, zip(*(blade.records for blade in blades), strict=True)))
+        self._rows = rows_of([blade.records for blade in blades])
 
     def advance(self, displacement: np.ndarray, first: int) -> tuple[int, list[Progress]]:
         """Integrate the passage of n elements, from the one that is the `first` since the start.
@@ -93,34 +94,35 @@ class RowSimulation:
             blade.layer.rest(blade.state, row, row + n_elements, apart / blade.stator.n_elements)
 
 
-def rows_of(records: Sequence[NamedTuple]) -> np.ndarray:
-    """Put records of `addresses`, all of one kind, into rows of 64 bits a field, for `record_at`."""
-    rows = np.zeros((len(records), len(records[0])), dtype=np.int64)
-    for row, record in zip(rows, records, strict=True):
-        for column, part in enumerate(record):
-            if isinstance(part, float):
-                row[column : column + 1].view(float)[0] = part
-            else:
-                row[column] = part
+def rows_of(blades: Sequence[Records]) -> np.ndarray:
+    """Put the records of each blade into a row of 64 bits a field, for `records_at`."""
+    rows = np.zeros((len(blades), sum(map(len, blades[0]))), dtype=np.int64)
+    for row, records in zip(rows, blades, strict=True):
+        for column, part in enumerate(chain(*records)):
+            (row.view(float) if isinstance(part, float) else row)[column] = part
     return rows
 
 
 @intrinsic
-def record_at(context, record, address):
-    """Load a record of the kind of `record` from the row at `address`, see `rows_of`.
+def records_at(context, kinds, address):
+    """Load the `Records` of a blade from its row at `address`, see `rows_of`.
 
-    Truth values are those of `record`: all records of a kind have the same.
+    `kinds` are those of any of the blades: truth values are the same for all.
     """
 
     def generate(context, builder, signature, arguments):
-        values, parts = cgutils.unpack_tuple(builder, arguments[0]), []
-        for row, (kind, part) in enumerate(zip(record.types, values, strict=True)):
-            if isinstance(kind, types.Integer | types.Float):
-                part = builder.load(place_at(builder, arguments[1], row, context.get_value_type(kind)))
-            parts.append(part)
-        return context.make_tuple(builder, record, parts)
+        row, records = 0, []
+        for kind, record in zip(kinds, cgutils.unpack_tuple(builder, arguments[0]), strict=True):
+            parts = cgutils.unpack_tuple(builder, record)
+            for number, part in enumerate(kind):
+                if isinstance(part, types.Integer | types.Float):
+                    place = place_at(builder, arguments[1], row + number, context.get_value_type(part))
+                    parts[number] = builder.load(place)
+            row += len(parts)
+            records.append(context.make_tuple(builder, kind, parts))
+        return context.make_tuple(builder, kinds, records)
 
-    return record(record, types.intp), generate
+    return kinds(kinds, types.intp), generate
 
 
 @njit_on_disk(solver_digest(), nogil=True)
@@ -163,19 +165,7 @@ def _integrate_row(
 @inlined
 def _records(kinds, rows, b):
     """Load the records of blade `b`."""
-    return Records(
-        record_at(kinds.modal, _row(rows.modal, b)),
-        record_at(kinds.flight, _row(rows.flight, b)),
-        record_at(kinds.stator, _row(rows.stator, b)),
-        record_at(kinds.tip, _row(rows.tip, b)),
-        record_at(kinds.state, _row(rows.state, b)),
-    )
-
-
-@inlined
-def _row(rows, b):
-    """Address of row `b`."""
-    return rows.ctypes.data + 8 * rows.shape[1] * b
+    return records_at(kinds, rows.ctypes.data + 8 * rows.shape[1] * b)
 
 
 @within
@@ -195,7 +185,7 @@ def _couple(coupling, kinds, rows, work, begins, element):
         for k in range(n_modes):
             velocity = 0.0
             for other in range(n_blades):
-                velocity += coupling.impulse[k, b, other] * read(rows.state[other, 0], k)
+                velocity += coupling.impulse[k, b, other] * read(_records(kinds, rows, other).state.q, k)
             present, before = read(state.q, k), read(state.q, modal.n + k)
             change = coupling.backward[k, b] * velocity
             shifted = before + change
