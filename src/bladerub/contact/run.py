@@ -50,8 +50,7 @@ def simulate_longer(
     Returns the run, then the longer one if there is, which is that from rest to the last bit.
     """
     rule, simulation = set_up(blade, spec)
-    initial, n_elements = sum(energy.blade_energy(rule, simulation.state)), spec.coating.n_elements
-    history = History(0, n_elements)
+    history, n_elements = History(0, rule, simulation), spec.coating.n_elements
 
     def result_after(revolutions: int) -> RunResult:
         done = len(history.displacement)
@@ -59,7 +58,7 @@ def simulate_longer(
         integrate(
             (Segment(simulation, n, 0, n_elements) for n in range(done, revolutions)), history, progress
         )
-        return run_result(blade, spec, rule, simulation, history, initial)
+        return history.run_result(blade, spec, rule, simulation)
 
     results = [result_after(spec.revolutions)]
     if revolutions := longer(results[0]):
@@ -77,11 +76,12 @@ class Segment(NamedTuple):
 
 
 class History:
-    """What is kept of an integration; NaN after an early end."""
+    """What is kept of an integration, which begins with this simulation; NaN after an early end."""
 
-    def __init__(self, revolutions: int, n_elements: int):
+    def __init__(self, revolutions: int, rule: Recurrence, simulation: Simulation):
+        self.initial = sum(energy.blade_energy(rule, simulation.state))  # Energy of the blade, J
         # Radial displacement of node 1, mean over the passage of each element, m
-        self.displacement = np.empty((0, n_elements))
+        self.displacement = np.empty((0, simulation.stator.n_elements))
         self.range = np.empty((0, 2))  # Lowest and highest of that in each revolution, m
         self.extend(revolutions)
         self.n_steps = self.n_contact_steps = 0
@@ -107,9 +107,9 @@ class History:
         self.is_within_limit = progress.n_steps == (last - first) * simulation.steps_per_element
 
     def outcome(
-        self, blade: ReducedBlade, spec: RunSpec, rule: Recurrence, simulation: Simulation, initial: float
+        self, blade: ReducedBlade, spec: RunSpec, rule: Recurrence, simulation: Simulation
     ) -> dict[str, Any]:
-        """Fields of `bladerub.contact.result.Outcome`; the blade had `initial` energy (J) at the start."""
+        """Fields of `bladerub.contact.result.Outcome`, where this is the simulation at the end."""
         revolutions, n_elements = self.displacement.shape
         status, message = "completed", f"{revolutions} revolutions completed"
         limit, elapsed = spec.displacement_limit, self.revolutions_made
@@ -121,7 +121,7 @@ class History:
         # no number where the first step of a revolution left the limit
         lowest, highest = np.where(np.isfinite(self.range), self.range, np.nan).T
         state, layer = simulation.state, simulation.layer
-        ledger = energy.balance(rule, state, initial, simulation.angle_per_step)
+        ledger = energy.balance(rule, state, self.initial, simulation.angle_per_step)
         if not (np.isfinite(ledger.residual) and np.isfinite(state.wear).all()):
             coating = spec.coating
             raise BadInput(
@@ -145,26 +145,20 @@ class History:
             },
         }
 
-
-def run_result(
-    blade: ReducedBlade,
-    spec: RunSpec,
-    rule: Recurrence,
-    simulation: Simulation,
-    history: History,
-    initial: float,
-) -> RunResult:
-    """Sum up a run that had `initial` energy (J) in the blade at its start."""
-    ledger = simulation.state.ledger
-    return RunResult(
-        **history.outcome(blade, spec, rule, simulation, initial),
-        time_step=rule.time_step,
-        n_reversed_steps=int(ledger[energy.REVERSED, 0]),
-        slowest_sliding=1.0 - float(ledger[energy.RETREAT].max()) * simulation.steps_per_element,
-        n_fallback_steps=int(ledger[energy.FALLBACK, 0]),
-        n_unconverged_steps=int(ledger[energy.UNCONVERGED, 0]),
-        n_modes=rule.omega.size,
-    )
+    def run_result(
+        self, blade: ReducedBlade, spec: RunSpec, rule: Recurrence, simulation: Simulation
+    ) -> RunResult:
+        """Sum up a run at one speed."""
+        ledger = simulation.state.ledger
+        return RunResult(
+            **self.outcome(blade, spec, rule, simulation),
+            time_step=rule.time_step,
+            n_reversed_steps=int(ledger[energy.REVERSED, 0]),
+            slowest_sliding=1.0 - float(ledger[energy.RETREAT].max()) * simulation.steps_per_element,
+            n_fallback_steps=int(ledger[energy.FALLBACK, 0]),
+            n_unconverged_steps=int(ledger[energy.UNCONVERGED, 0]),
+            n_modes=rule.omega.size,
+        )
 
 
 def integrate(

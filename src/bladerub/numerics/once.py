@@ -3,23 +3,20 @@
 import threading
 from collections.abc import Callable
 from functools import lru_cache, wraps
-from typing import ParamSpec, TypeVar
-
-Arguments = ParamSpec("Arguments")
-Value = TypeVar("Value")
+from typing import Any
 
 
-def once(maxsize: int) -> Callable[[Callable[Arguments, Value]], Callable[Arguments, Value]]:
+def once(maxsize: int) -> Callable[[Callable], Callable]:
     """Keep the last `maxsize` values of a function; one thread computes, the others wait for its value.
 
     With `functools.lru_cache` alone each of them would compute it.
     """
 
-    def decorate(function: Callable[Arguments, Value]) -> Callable[Arguments, Value]:
+    def decorate(function: Callable) -> Callable:
         cached, lock = lru_cache(maxsize)(function), threading.Lock()
 
         @wraps(function)
-        def locked(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Value:
+        def locked(*args: Any, **kwargs: Any) -> Any:
             with lock:
                 return cached(*args, **kwargs)
 

@@ -19,6 +19,7 @@ from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import Modal
 from bladerub.contact.laws import module_of, source_of
 from bladerub.contact.run import History
+from bladerub.contact.schemes import Recurrence
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.extras.gpu import formulas
 from bladerub.numerics.vectors import LANES
@@ -211,11 +212,12 @@ def pack(variant: Variant, simulations: Sequence[Simulation]) -> Work:
     )
 
 
-def finish(simulation: Simulation, output: Output, i: int) -> History | None:
+def finish(rule: Recurrence, simulation: Simulation, output: Output, i: int) -> History | None:
     """Bring a simulation to its end by what was left of run `i`; None where it was handed over."""
     counts = dict(zip(COUNTS, output.counts[i].tolist(), strict=True))
     if counts["status"] == HANDED_OVER:
         return None
+    history = History(len(output.displacement[i]), rule, simulation)
     state, (q, increment) = simulation.state, output.modes[i]
     n = state.q.shape[1]
     state.q[:] = q[:n], (q - increment)[:n], q[:n]  # all damping is in the ledger
@@ -226,7 +228,6 @@ def finish(simulation: Simulation, output: Output, i: int) -> History | None:
     state.ledger[list(_OF_ELEMENTS)] = groups[2:].sum(axis=1)
     state.ledger[energy.WORN] = state.wear.sum(axis=0)
     state.ledger[energy.REVERSED, 0] = counts["reversed_steps"]
-    history = History(*output.displacement[i].shape)
     history.displacement[:] = output.displacement[i]
     history.range[:] = output.range[i]
     history.n_steps, history.n_contact_steps = counts["steps"], counts["contact_steps"]

@@ -5,7 +5,6 @@ So a law of the elements, the profile of the tip and the direction of the contac
 
 import ast
 import inspect
-import textwrap
 from collections.abc import Callable, Sequence
 from types import ModuleType
 
@@ -60,7 +59,8 @@ def _with_callees(functions: Sequence[Callable], source: str = "") -> str:
                 raise ValueError(f"{name}: two functions of this name, which a GPU can't be given")
             return
         is_text = function.__code__.co_filename.startswith("<")
-        translation = _Translation(function, no_file[name] if is_text else _definition(function))
+        definition = no_file[name] if is_text else ast.parse(inspect.getsource(function)).body[0]
+        translation = _Translation(function, definition)
         for callee in translation.callees():
             add(callee)
         translations[name] = function, translation.text()
@@ -68,10 +68,6 @@ def _with_callees(functions: Sequence[Callable], source: str = "") -> str:
     for function in functions:
         add(function)
     return "\n".join(text for _, text in translations.values())
-
-
-def _definition(function: Callable) -> ast.stmt:
-    return ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
 
 
 class _Translation:

@@ -6,10 +6,9 @@ from collections.abc import Callable, Iterator, Sequence
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import energy
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.result import RunResult
-from bladerub.contact.run import run_result, simulate
+from bladerub.contact.run import simulate
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
@@ -47,12 +46,11 @@ def simulate_many(
     works = (batch.pack(variant, [simulation for *_, simulation in part]) for variant, part in parts)
     for (_, part), output in zip(parts, device(works), strict=True):
         for i, (number, rule, simulation) in enumerate(part):
-            initial = sum(energy.blade_energy(rule, simulation.state))
-            history = batch.finish(simulation, output, i)
+            history = batch.finish(rule, simulation, output, i)
             if history is None:
                 left_out["Newton's method did not converge in a step"].append(number)
             else:
-                yield number, run_result(blade, specs[number], rule, simulation, history, initial)
+                yield number, history.run_result(blade, specs[number], rule, simulation)
     for reason, numbers in left_out.items():
         report(len(numbers), f"{len(numbers)} of {len(specs)} runs on the CPU: {reason}")
         for number in numbers:

@@ -31,20 +31,18 @@ def ask(works: Iterable[Work]) -> Iterator[Output]:
     Raises `bladerub.extras.gpu.device.NoGpuError` if it does not answer, and what it raises.
     """
     address = os.environ[ADDRESS]
-    with contextlib.ExitStack() as open_ones:
-        try:
-            connections = []
-            for work in works:
-                connections.append(open_ones.enter_context(Client(address, "AF_UNIX")))
-                connections[-1].send(work)
-            for connection in connections:
+    works = list(works)
+    try:
+        with Client(address, "AF_UNIX") as connection:
+            connection.send(works)
+            for _ in works:
                 answer = connection.recv()
                 if isinstance(answer, Exception):
                     raise answer
                 yield answer
-        except (OSError, EOFError) as error:
-            problem = f"the process that has the GPU does not answer at {address} ({error!r})"
-            raise device.NoGpuError(f"{problem}; the same command goes on from what is finished") from error
+    except (OSError, EOFError) as error:
+        problem = f"the process that has the GPU does not answer at {address} ({error!r})"
+        raise device.NoGpuError(f"{problem}; the same command goes on from what is finished") from error
 
 
 _Request = tuple[Work, Future]
@@ -61,9 +59,11 @@ def serve(listener: Listener, run: Device) -> None:
 
 def _answer(connection: Connection, requests: "queue.SimpleQueue[_Request]") -> None:
     with connection, contextlib.suppress(OSError, EOFError):  # who asked is gone
-        answer = Future()
-        requests.put((connection.recv(), answer))
-        connection.send(answer.exception() or answer.result())
+        asked = [(work, Future()) for work in connection.recv()]
+        for request in asked:
+            requests.put(request)
+        for _, answer in asked:
+            connection.send(answer.exception() or answer.result())
 
 
 def _compute(requests: "queue.SimpleQueue[_Request]", run: Device) -> None:

@@ -80,12 +80,11 @@ def simulate_sweep(blade: ReducedBlade, spec: SweepSpec) -> SweepResult:
     n_elements = spec.run.coating.n_elements
     plan = speed_steps(spec, blade.f1_hz)
     sweep = _Sweep(blade, spec.run, plan)
-    initial = sum(energy.blade_energy(sweep.stage.rule, sweep.stage.simulation.state))
-    history = History(plan[-1].last // n_elements, n_elements)
+    history = History(plan[-1].last // n_elements, sweep.stage.rule, sweep.stage.simulation)
     integrate(sweep.segments(), history)
     f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
     return SweepResult(
-        **history.outcome(blade, spec.run, sweep.stage.rule, sweep.stage.simulation, initial),
+        **history.outcome(blade, spec.run, sweep.stage.rule, sweep.stage.simulation),
         f_omega=f_omega,
         time=time,
         work_stiffness=sweep.work,

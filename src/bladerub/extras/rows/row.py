@@ -26,7 +26,7 @@ from bladerub.contact.kernel.records import COATING
 from bladerub.contact.laws import module_for
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import Energy, RunResult
-from bladerub.contact.run import History, Segment, run_result
+from bladerub.contact.run import History, Segment
 from bladerub.contact.setup import fixed_steps, set_up
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.start import Seat
@@ -92,9 +92,7 @@ def simulate_row(
     stored = partial(_stored, row, modes, seats)
     initial = stored()
     _march(spec, seats, simulation, progress)
-    results = tuple(
-        run_result(blade, seat.spec, seat.rule, seat.simulation, seat.history, seat.initial) for seat in seats
-    )
+    results = tuple(seat.history.run_result(blade, seat.spec, seat.rule, seat.simulation) for seat in seats)
     unbounded = tuple(number for number, result in enumerate(results, 1) if result.status == "unbounded")
     status, message = results[0].status, results[0].message
     if unbounded:
@@ -171,8 +169,7 @@ class _Seat:
         self.modes = modes._replace(omega=modes.omega * row_blade.frequency_factors(modes.omega.size))
         seat = Seat(position - self.row, row_blade.length, coating)
         self.rule, self.simulation = set_up(blade, self.spec, self.modes, seat)
-        self.initial = sum(energy.blade_energy(self.rule, self.simulation.state))
-        self.history = History(spec.revolutions, n_elements)
+        self.history = History(spec.revolutions, self.rule, self.simulation)
 
     def first_clear(self) -> int:
         """Elements up to the first place where it touches nothing at rest; `ValueError` if there is none."""

@@ -13,12 +13,11 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import energy
 from bladerub.contact.kernel import loop
 from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.modes import mode_shapes_at, modes_at
 from bladerub.contact.result import RunResult
-from bladerub.contact.run import History, Segment, integrate, run_result
+from bladerub.contact.run import History, Segment, integrate
 from bladerub.contact.setup import set_up
 from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
@@ -51,16 +50,15 @@ def simulate_sampled(
     n, groups, lanes = rule.omega.size, len(rule.tip) // rule.n_nodes, len(simulation.state.force[0]) // 3
     forces = np.add.outer(lanes * np.arange(groups), np.arange(rule.n_nodes)).ravel()
     sampled = _Sampled(simulation, ends, n, forces, revolutions)
-    initial = sum(energy.blade_energy(rule, simulation.state))
     segments = (Segment(sampled, revolution, 0, n_elements) for revolution in range(revolutions))
-    history = History(revolutions, n_elements)
+    history = History(revolutions, rule, simulation)
     integrate(segments, history, progress)
     # what the resolved modes displace, and how the others answer to the contact forces
     moving = np.sqrt(rule.share[:n])[:, None] * shapes[:, :n].T
     answer = modes.tip * ((1.0 - rule.share) / modes.omega**2) @ shapes.T
     times = np.add.outer(np.arange(revolutions), ends[1:] / n_elements).ravel()
     return SampledRun(
-        run_result(blade, spec, rule, simulation, history, initial),
+        history.run_result(blade, spec, rule, simulation),
         times[: sampled.n_sampled],
         sampled.amplitudes[: sampled.n_sampled],
         np.vstack([moving, answer]).astype(np.float32),
