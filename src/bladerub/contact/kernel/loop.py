@@ -106,26 +106,21 @@ class Records(NamedTuple):
 
 
 class Step(NamedTuple):
-    """One step of the rotation."""
+    """One step of the rotation, with the addresses of modal coordinates and tip displacements."""
 
     touched: bool  # Whether there was contact before it
     travel: float  # Elements passed at its end
     per_step: float  # Elements passed in it
     angle: float  # Angle passed in it, rad
-
-
-class Rows(NamedTuple):
-    """Addresses of modal coordinates and tip displacements now, one step before, and those to come."""
-
-    q: int
+    q: int  # Now, and to come
     q_next: int
-    u_before: int
+    u_before: int  # One step before, now, and to come
     u: int
     u_next: int
 
 
 @inlined
-def _store_displacement(modal, tip, displacement, u):
+def _store_displacement(tip, displacement, u):
     """Store a displacement of the tip and the approach of its nodes; return this."""
     approach = normal_approach(tip, displacement.radial, displacement.tangential)
     store_tip(u, displacement, approach)
@@ -154,7 +149,7 @@ def _advance(modal, state, touched, q, q_before, q_next):
 
 
 @inlined
-def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
+def _contact(modal, stator, tip, state, step, clear_of_casing):
     """Find the contact forces at the end of a step, and what they do to coating, modes and ledger.
 
     Returns whether the displacement is within the limit, and whether there is contact now.
@@ -164,27 +159,27 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     if not step.touched:  # the forces before are of an older contact
         clear(address_of(state.force, 3 * LANES), 3 * LANES)
     if modal.corrects and step.touched:  # the last correction moved the tip after its limit was checked
-        within = is_within_limit(tip, load(rows.u, 0), load(rows.u, LANES))
+        within = is_within_limit(tip, load(step.u, 0), load(step.u, LANES))
     if within and clear_of_casing:
         clear(state.force, 3 * LANES)
         clear(state.normal_force, LANES)
         clear(state.response, 3 * LANES)
     elif within:
         if stator.coulomb:
-            predict_sliding(modal, state, rows.q_next, rows.q, step.angle)
-            within = find_forces(modal, stator, tip, step.travel, state, rows.u_next, True)
+            predict_sliding(modal, state, step.q_next, step.q, step.angle)
+            within = find_forces(modal, stator, tip, step.travel, state, step.u_next, True)
         else:
-            within = find_forces(modal, stator, tip, step.travel, state, rows.u_next, False)
+            within = find_forces(modal, stator, tip, step.travel, state, step.u_next, False)
         touching = within and largest_lane(load(state.normal_force, 0)) > 0.0
     if not within:
         copy(address_of(state.force, 3 * LANES), state.force, 3 * LANES)
         return False, False
     if touching or step.touched:
-        update_coating(stator, tip, step.travel, step.per_step, state, rows.u_next, rows.u)
+        update_coating(stator, tip, step.travel, step.per_step, state, step.u_next, step.u)
     if touching and modal.corrects:
-        _store_displacement(modal, tip, correct(modal, state.force, rows.q_next), rows.u_next)
+        _store_displacement(tip, correct(modal, state.force, step.q_next), step.u_next)
     if step.touched:
-        add_work(stator, tip, step.angle, state, rows.u_next, rows.u, rows.u_before)
+        add_work(stator, tip, step.angle, state, step.u_next, step.u, step.u_before)
         clear(address_of(state.normal_force, LANES), LANES)
     return True, touching
 
@@ -216,6 +211,7 @@ def integrate(records, steps_per_element, first, last, is_flying, reach, displac
     """
     modal, flight, stator, tip, state = records
     turns = n_flights = n_contact = 0
+    within = True
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
     angle = per_step * (2.0 * np.pi / stator.n_elements)
@@ -229,7 +225,7 @@ def integrate(records, steps_per_element, first, last, is_flying, reach, displac
         minimum_gap = read(stator.minimum_gap, element)
         mean = 0.0
         step = 0
-        while step < steps_per_element:
+        while within and step < steps_per_element:
             if touching or step + flight.n_steps > steps_per_element:
                 is_flying = False
             else:
@@ -240,7 +236,7 @@ def integrate(records, steps_per_element, first, last, is_flying, reach, displac
                 touched = False
                 node_1 = read(u, 0)
                 moved, loss, increment, reach = free_flight.fly(flight, modal, q, q_before, q_next)
-                _store_displacement(modal, tip, moved, u)
+                _store_displacement(tip, moved, u)
                 damping = damping + loss
                 mean += flight.n_steps * (node_1 + increment)
                 low, high = free_flight.extremes(node_1, read(u, 0), node_1 + increment)
@@ -251,21 +247,17 @@ def integrate(records, steps_per_element, first, last, is_flying, reach, displac
             for _ in range(min(flight.n_steps, steps_per_element - step)):
                 touched = touching
                 moved, loss = _advance(modal, state, touched, q, q_before, q_next)
-                approach = _store_displacement(modal, tip, moved, u_next)
+                approach = _store_displacement(tip, moved, u_next)
                 damping = damping + loss
                 step += 1
                 clear_of_casing = is_clear(tip, moved.radial, moved.tangential, approach, u_next, minimum_gap)
                 if touched or not clear_of_casing:
-                    rotation = Step(touched, element + step * per_step, per_step, angle)
-                    rows = Rows(q, q_next, u_before, u, u_next)
-                    within, touching = _contact(modal, stator, tip, state, rotation, rows, clear_of_casing)
+                    travel = element + step * per_step
+                    rotation = Step(touched, travel, per_step, angle, q, q_next, u_before, u, u_next)
+                    within, touching = _contact(modal, stator, tip, state, rotation, clear_of_casing)
                     if not within:
                         copy(q, q_next, modal.n)  # the damping loss is complete up to here
-                        add_to(state.ledger, DAMPING * LANES, damping)
-                        _put_in_order(state.q, modal.n, turns)
-                        _put_in_order(state.u, 4 * LANES, turns)
-                        n_steps = turns + n_flights * flight.n_steps
-                        return is_flying, reach, n_steps, n_flights, n_contact, bottom, top
+                        break
                     n_contact += touching
                 node_1, node_1_before = read(u_next, 0), read(u, 0)
                 mean += 0.5 * (node_1_before + node_1)
@@ -273,9 +265,11 @@ def integrate(records, steps_per_element, first, last, is_flying, reach, displac
                 turns += 1
                 q, q_before, q_next = q_next, q, q_before
                 u, u_before, u_next = u_next, u, u_before
+        if not within:
+            break
         write(displacement, element - first, mean * per_step)
     add_to(state.ledger, DAMPING * LANES, damping)
-    if not (touched or touching):  # the last step added nothing
+    if within and not (touched or touching):  # the last step added nothing
         clear(address_of(state.ledger, STORED * LANES), 4 * LANES)
     _put_in_order(state.q, modal.n, turns)
     _put_in_order(state.u, 4 * LANES, turns)

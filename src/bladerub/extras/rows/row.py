@@ -52,7 +52,6 @@ class RowResult:
 
     status: str  # as of `Outcome`, for the whole row
     message: str
-    angle: np.ndarray  # (n_elements,), casing angle of the element centres, rad
     wear: np.ndarray  # (8, n_elements), permanent shortening under each node by all blades, m
     blades: tuple[RunResult, ...]  # in the order of the row
     worn_volume: np.ndarray  # (n_blades,), that each has worn off, m³
@@ -104,7 +103,6 @@ def simulate_row(
     return RowResult(
         status=status,
         message=message,
-        angle=results[0].angle,
         wear=results[0].wear,
         blades=results,
         worn_volume=np.array(worn),
