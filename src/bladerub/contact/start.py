@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from functools import lru_cache, partial
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +13,7 @@ from bladerub.contact.kernel import records
 from bladerub.contact.laws import element_parameters, module_of
 from bladerub.contact.modes import Modes, tip_radii
 from bladerub.contact.schemes import Recurrence, normal_compliance
-from bladerub.contact.spec import Casing, Coating, RunSpec
+from bladerub.contact.spec import Coating, RunSpec
 from bladerub.contact.strips import (
     element_angle,
     element_area,
@@ -93,12 +93,13 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
         parameters = np.zeros((len(module_of(coating.element_law).Element._fields), area.size))
     else:
         parameters = element_parameters(coating, area, rule.time_step)
-    clearance = tuple(running_clearance(blade, spec).tolist())
-    first, width = tuple(first_element(blade, spec).tolist()), spec.tip.half_width + seat.ahead
-    gap, lowest = _gaps(spec.casing, clearance, seat.longer, first, coating.n_elements, width, area.size)
+    clearance, angle = running_clearance(blade, spec)[:, None], element_angle(coating.n_elements)
+    gap, first = casing.gap(spec.casing, clearance, angle) - seat.longer, first_element(blade, spec)
+    rows = np.array([np.roll(of_node, -shift) for of_node, shift in zip(gap, first, strict=True)])
+    unused = np.full((coating.n_elements, area.size - len(rows)), _NEVER)
     stator = records.Stator(
-        initial_gap=gap,
-        minimum_gap=lowest,
+        initial_gap=np.hstack([rows.T, unused]),
+        minimum_gap=minimum_gap(rows, spec.tip.half_width + seat.ahead),
         law=parameters,
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
@@ -109,23 +110,6 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
         further_compliance=further,
     )
     return aligned(stator)
-
-
-@lru_cache(maxsize=32)  # the runs of a coating, and of most studies, have the same
-def _gaps(
-    shape: Casing,
-    clearance: tuple[float, ...],
-    longer: float,
-    first: tuple[int, ...],
-    n_elements: int,
-    half_width: float,
-    lanes: int,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the gaps of `records.Stator`."""
-    gap = casing.gap(shape, np.array(clearance)[:, None], element_angle(n_elements)) - longer
-    rows = np.array([np.roll(of_node, -shift) for of_node, shift in zip(gap, first, strict=True)])
-    unused = np.full((n_elements, lanes - len(rows)), _NEVER)
-    return np.hstack([rows.T, unused]), minimum_gap(rows, half_width)
 
 
 def minimum_gap(rows: np.ndarray, half_width: float) -> np.ndarray:
