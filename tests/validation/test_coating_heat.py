@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 from scipy.special import erf
 
-from bladerub.contact.kernel.records import at_rest
-from bladerub.contact.laws import module_of
+from bladerub.contact.laws import module_for, module_of
 from bladerub.contact.run import simulate, simulate_longer
 from bladerub.contact.spec import Coating
 from bladerub.contact.strips import element_area
@@ -40,7 +39,7 @@ def test_a_heated_slab_cools_as_on_a_half_space(periods):
     law = thermal()
     coating = Coating(1.1, 0.5, 0.1, 1e-6, 600e6, THICKNESS, 4, element_law=law)
     layer = heating.Layer(module_of(law), coating, np.ones(8), periods * DEPTH**2 / DIFFUSIVITY)
-    state = at_rest(1, 4, kept=heating.CELLS)
+    state = module_for(8, "contact.kernel.records", law).at_rest(1, 4)
     state.taken[:, :8] = CAPACITY * DEPTH
     layer.rest(state, 0, 4)
     found = layer.rise(state)[0, 0]

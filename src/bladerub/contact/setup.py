@@ -45,15 +45,14 @@ def set_up(
     tip = tip_record(blade, spec, seat)
     stator = stator_record(blade, spec, rule, seat)
     kernel = _kernel(modes.n_nodes, coating.element_law, spec.turns)
-    kept = law.Layer.numbers if hasattr(law, "Layer") else 0  # of each element
-    state = kernel("records").at_rest(rule.omega.size, coating.n_elements, kept)
+    state = kernel("records").at_rest(rule.omega.size, coating.n_elements)
     deflect(state, modes, rule, spec, tip)
     state = state._replace(**seat.coating)
     slope = tip.search_range / float(np.min(tip.radius - tip.limit))
     leap = n_steps // math.ceil(n_steps / MOST_STEPS)
     flight = kernel("free_flight").free_flight(rule, leap, slope, edge(tip))
     layer = None
-    if kept:
+    if hasattr(law, "Layer"):
         area = records.by_lane(element_area(blade, spec), modes.n_nodes)
         layer = law.Layer(law, coating, area, passage * coating.n_elements)
     simulation = kernel("loop").Simulation

@@ -7,6 +7,7 @@ import numpy as np
 
 from bladerub.contact import law
 from bladerub.contact.gap import is_above, penetration
+from bladerub.contact.kernel.records import LAYER_NUMBERS
 from bladerub.contact.tip import coverage, mean_coverage, relief
 from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import add_to, load, load_fields, store
@@ -21,8 +22,6 @@ from bladerub.numerics.vectors import (
     where,
 )
 
-LAYERED = hasattr(law, "Layer")
-"""Whether something changes the forces of the elements between passages (`bladerub.contact.laws`)."""
 NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
 NO_ADVANCE = 1e-9
@@ -112,7 +111,7 @@ def press(element, stator, tip, state, row, offset, approach, fetch, lane):
     depth = penetration(approach, relief(tip, offset), fetch(stator.initial_gap, entry), worn)
     force, _ = law.return_mapping(element, depth, worn)
     stiffness, linear = law.tangent(element, depth, worn)
-    if LAYERED:
+    if LAYER_NUMBERS:
         strength = fetch(state.strength, entry)
         force, stiffness = strength * force, strength * stiffness
     return force, stiffness, linear
@@ -176,7 +175,7 @@ def update_wear(stator, tip, state, position, position_before, pose, pose_before
         worn_off = worn_off + increment
         energy, energy_before = law.stored_energy(element, force), law.stored_energy(element, force_before)
         loss = law.dissipated_energy(element, worn, increment, where(was_under, force_before, 0.0), force)
-        if LAYERED:
+        if LAYER_NUMBERS:
             strength = load(state.strength, entry)
             force, force_before = strength * force, strength * force_before
             energy, energy_before, loss = strength * energy, strength * energy_before, strength * loss

@@ -15,7 +15,7 @@ from bladerub.contact.gap import is_within_limit, normal_approach
 from bladerub.contact.kernel import free_flight
 from bladerub.contact.kernel.accounting import add_work, update_coating
 from bladerub.contact.kernel.coulomb import predict_sliding
-from bladerub.contact.kernel.elements import LAYERED, is_clear
+from bladerub.contact.kernel.elements import is_clear
 from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import APPROACH, Modal, advance_forced, advance_free, correct, store_tip
 from bladerub.contact.kernel.newton import find_forces
@@ -61,8 +61,7 @@ class Simulation:
     ):
         self.modal, self.flight, self.stator, self.tip, self.state = modal, flight, stator, tip, state
         self.steps_per_element, self.layer = steps_per_element, layer
-        kept = state.layer.shape[1] // LANES
-        shape = shapes(modal.n, stator.n_elements, stator.n_elements if LAYERED else 0, kept)
+        shape = shapes(modal.n, stator.n_elements)
         records = modal, flight, stator, tip, state
         for record in records:
             check(record, shape)

@@ -14,6 +14,8 @@ from bladerub.numerics.lanes import COORDINATES, lanes_for
 from bladerub.numerics.memory import aligned
 from bladerub.numerics.vectors import LANES
 
+LAYER_NUMBERS = law.Layer.numbers if hasattr(law, "Layer") else 0
+"""Numbers of each element that the law keeps to change its force between passages; 0 if it does not."""
 N_FORMS = 12
 """Coefficients of a free flight for each mode (`bladerub.contact.kernel.free_flight`)."""
 
@@ -103,20 +105,17 @@ def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:
     return groups.take(node, axis=1).reshape(-1, *rows.shape[1:])
 
 
-def at_rest(n_modes: int, n_elements: int, kept: int = 0) -> State:
-    """State of a blade at rest before an unworn coating, whose layer keeps `kept` numbers of an element."""
-    shape = shapes(n_modes + -n_modes % LANES, n_elements, n_elements if kept else 0, kept)
+def at_rest(n_modes: int, n_elements: int) -> State:
+    """State of a blade at rest before an unworn coating."""
+    shape = shapes(n_modes + -n_modes % LANES, n_elements)
     state = State(*(np.zeros(shape[name]) for name in State._fields))
     state.strength[:] = 1.0
     return aligned(state)
 
 
-def shapes(n: int, n_elements: int, layered: int = 0, kept: int = 0) -> dict:
-    """Shape of each array that the loop reads by address, by its field.
-
-    `n` is the number of modes, whole vectors, `layered` that of the rows of a layer, `kept` that of the
-    numbers that it keeps of an element.
-    """
+def shapes(n: int, n_elements: int) -> dict:
+    """Shape of each array that the loop reads by address, by its field; `n` modes are whole vectors."""
+    layered = n_elements if LAYER_NUMBERS else 0
     lanes, tip = (LANES,), COORDINATES * LANES
     of_modes, of_elements = (n,), (n_elements, LANES)
     return {
@@ -138,7 +137,7 @@ def shapes(n: int, n_elements: int, layered: int = 0, kept: int = 0) -> dict:
         "wear": of_elements,
         "strength": (layered, LANES),
         "taken": (layered, 2 * LANES),
-        "layer": (layered, kept * LANES),
+        "layer": (layered, LAYER_NUMBERS * LANES),
         "ledger": (N_ENTRIES, LANES),
         "scratch": (6, 2 * LANES),
     }

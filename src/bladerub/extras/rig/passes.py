@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from bladerub.contact.kernel.records import at_rest
-from bladerub.contact.laws import module_of
+from bladerub.contact.laws import module_for, module_of
 from bladerub.contact.spec import TipProfile
 from bladerub.contact.tip import coverage, edge, relief
 from bladerub.extras.rig.spec import MEASURABLE, Rig
@@ -48,7 +47,7 @@ def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> p
     layer = None
     if hasattr(law, "Layer"):  # that of the time loop, with a row for the element
         layer = law.Layer(law, rig.coating, np.full(LANES, area), rig.track / rig.speed)
-        heat = at_rest(1, 1, layer.numbers)
+        heat = module_for(LANES, "contact.kernel.records", rig.coating.element_law).at_rest(1, 1)
     wear, rise, strength, rows = 0.0, math.nan, 1.0, []
     for number in range(1, rig.passes + 1):
         depth = number * rig.incursion

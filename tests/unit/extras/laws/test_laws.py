@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from bladerub.contact import law
-from bladerub.contact.kernel.records import at_rest
-from bladerub.contact.laws import element_parameters, law_digest, module_of, source_of
+from bladerub.contact.laws import element_parameters, law_digest, module_for, module_of, source_of
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras.heat import LAYER
@@ -164,7 +163,8 @@ def layer(**values):
 
 def heated(flow=0.0, friction=0.0):
     """State after a passage that made so much heat in rows 3 to 5, J."""
-    state = at_rest(1, N, kept=CELLS)
+    law = described_law("thermal", VALUES)
+    state = module_for(8, "contact.kernel.records", law).at_rest(1, N)
     state.taken[3:6] = np.repeat([flow, friction], 8)
     return state
 
