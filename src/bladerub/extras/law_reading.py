@@ -9,6 +9,7 @@ by it without running the law. The time loop is compiled with the law in it
 import ast
 import dis
 import hashlib
+import math
 import re
 from collections.abc import Mapping
 from functools import cache
@@ -60,6 +61,8 @@ def source_of(law: ElementLaw) -> str:
 
 def law_digest(law: ElementLaw) -> dict[str, str]:
     """Digest what loop and spec lack of a law: its module if it plugs in, and what it imports of extras."""
+    if not (law.source or law.name in plugins.offered("LAWS")):
+        return {}
     source = source_of(law)
     plugs_in = {} if law.source else {"law": hashlib.sha256(source.encode()).hexdigest()}
     imported = [name for name in sources.imports_in(source) if name.startswith("extras.")]
@@ -169,8 +172,8 @@ def described_law(name: str, values: Mapping[str, Any], source: str = "") -> Ele
         if parameter not in values:
             raise ValueError(f"{parameter}: missing, {requirement}")
         value = values[parameter]
-        is_number = isinstance(value, int | float) and not isinstance(value, bool)
-        if not (is_number and rule.minimum <= value <= rule.maximum):
+        is_number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        if not is_number or not rule.minimum <= value <= rule.maximum:
             raise ValueError(f"{parameter} = {value}: {requirement}")
         settings.append((parameter, float(value)))
     return ElementLaw(name, tuple(settings), source)
