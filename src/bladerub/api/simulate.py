@@ -1,21 +1,19 @@
-"""Runs simulated, with the longer run of one that grows: a single one, or many of a coating."""
+"""One run simulated, with the longer run of one that grows."""
 
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from bladerub.api.arguments import InputError, over
+from bladerub.api.arguments import over
 from bladerub.api.blade import Blade
 from bladerub.api.display import bar, step
 from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run, stress_measure
 from bladerub.contact.setup import compile_kernel
 from bladerub.study.grid import speed_name
-from bladerub.study.growth import needs_confirmation
-from bladerub.study.job import compute, compute_all
-from bladerub.study.plan import CoatingPlan, PlannedRun, longer_run, planned_run
-from bladerub.study.solver import Solve, row_of, solver_of
-from bladerub.study.store import StoredRun
+from bladerub.study.job import compute_all
+from bladerub.study.plan import CoatingPlan, planned_run
+from bladerub.study.solver import row_of
 
 
 @over("run")
@@ -76,7 +74,7 @@ def simulate(
     """
     blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     run = run.of_length(blade.length)  # perhaps not the study's own blade
-    row, solve, analysis = row or row_of(run.config), solver_of(run.config).simulate, run.config.analysis
+    row, analysis = row or row_of(run.config), run.config.analysis
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
     if stress and (measure := stress_measure()) is None:  # before any work
@@ -87,42 +85,17 @@ def simulate(
     with bar(run.spec.revolutions, "rev", progress) as line:
 
         def report(revolutions: int) -> None:
-            if revolutions < line.n:  # of the longer run
+            if not line.n < revolutions <= line.total:  # of the longer run
                 line.reset(analysis.divergence.confirmation_revolutions)
             line.update(revolutions - line.n)
             if each:
                 each(revolutions)
 
-        def computed(planned: PlannedRun, solve: Solve) -> StoredRun:
-            key = planned.key(blade.digest)
-            return compute(run.case, planned, blade.reduced, key, analysis, report, solve)
-
-        planned = planned_run(run.config, run.spec, f"{speed_name(run.f_omega)}.h5", True, row)
-        stored, longer = computed(planned, stressed or solve), None
-        amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
-        if follow and needs_confirmation(amplitude, status, analysis.divergence):
-            longer = Run(computed(longer_run(run.config, planned), solve))
+        name = f"{speed_name(run.f_omega)}.h5"
+        plan = CoatingPlan(run.case, (planned_run(run.config, run.spec, name, True, row, follow),))
+        work = run.config, plan, blade.reduced, blade.digest
+        (stored,), (longer,) = compute_all(*work, progress=report, solver=stressed)
     run_stress = stressed.stress if stressed else None
     if run_stress:
         stored = replace(stored, attributes=stored.attributes | run_stress.attributes())
-    return Run(stored, longer, run_stress, run.config)
-
-
-def solve_all(
-    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
-) -> list[Run]:
-    """Simulate `runs` of a coating, `jobs` at once, without histories; other arguments as of `simulate`."""
-    if not isinstance(jobs, int) or jobs < 1:
-        raise InputError("jobs", jobs, "must be at least 1")
-    with step("compiling the time loop", progress):
-        compile_kernel(runs[0].spec.turns, blade.reduced.n_interface, runs[0].spec.coating.element_law)
-    runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade
-    config, row = runs[0].config, row_of(runs[0].config)
-    planned = [planned_run(config, run.spec, f"{n}.h5", False, row, follow) for n, run in enumerate(runs)]
-    plan = CoatingPlan(runs[0].case, tuple(planned))
-    with bar(len(runs), "run", progress) as line:
-        stored, longer = compute_all(
-            config, plan, blade.reduced, blade.digest, threads=jobs, advance=line.update
-        )
-    pairs = zip(stored, longer, strict=True)
-    return [Run(run, Run(more) if more else None, config=config) for run, more in pairs]
+    return Run(stored, Run(longer) if longer else None, run_stress, run.config)

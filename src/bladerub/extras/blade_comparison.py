@@ -5,10 +5,10 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.frequencies import tip_lean
 from bladerub.blade.model import ReducedBlade
+from bladerub.extras.blade_doubts import errors_by_mode
 from bladerub.settings.study import Config
 from bladerub.study import divergence
 from bladerub.study.maps import CoatingMap

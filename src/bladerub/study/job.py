@@ -12,14 +12,12 @@ from bladerub.contact.result import RunResult
 from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
 from bladerub.io.provenance import provenance
-from bladerub.settings.analysis import Analysis
 from bladerub.settings.study import Config
 from bladerub.study.cache import Entry
-from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
-from bladerub.study.solver import Solve, Solver, each_done, rows, solver_of
+from bladerub.study.solver import Solver, each_done, rows, solver_of
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_run, write_run
 
 
@@ -80,13 +78,17 @@ def compute_all(
     report: Callable[[object], None] = lambda line: None,
     threads: int = 1,
     advance: Callable[[], object] = lambda: None,
+    progress: Callable[[int], None] | None = None,
+    solver: Solver | None = None,
 ) -> tuple[list[StoredRun], list[StoredRun | None]]:
     """Compute the runs that `compute_missing` would, all of them, and keep them in memory.
 
     Returns the runs of the `plan` in its order, and the longer run of each or None. `report` is called with
-    the lines of the solver for a log, `advance` after each run of the plan.
+    the lines of the solver for a log, `advance` after each run of the plan, `progress` with the number of
+    revolutions done of a run. Single blades are simulated by `solver`, by default that of the config. Raises
+    `ValueError` as `bladerub.contact.run.simulate` and `bladerub.study.solver.rows`.
     """
-    job = _Job(config, plan, blade, blade_digest, report, threads)
+    job = _Job(config, plan, blade, blade_digest, report, threads, progress=progress, solver=solver)
     stored, files = {}, {run.file for run in plan.runs}
     for run, outcome, _ in job.computed(plan.runs):
         stored[run.file] = outcome
@@ -96,28 +98,6 @@ def compute_all(
     not_begun = [run for run in longer if run and run.file not in stored]
     stored |= {run.file: outcome for run, outcome, _ in job.computed(not_begun)}
     return [stored[run.file] for run in plan.runs], [stored[run.file] if run else None for run in longer]
-
-
-def compute(
-    case: CoatingCase,
-    run: PlannedRun,
-    blade: ReducedBlade,
-    key: str,
-    analysis: Analysis,
-    progress: Callable[[int], None] | None = None,
-    solve: Solve | None = None,
-) -> StoredRun:
-    """Simulate what was planned, a single blade or a row, and return what is stored of it.
-
-    `key` is that of the run, `analysis` of the config; `progress` is called with the number of revolutions
-    done. A single blade is simulated by `solve`, by default on the processor. Raises `ValueError` as
-    `bladerub.contact.run.simulate` and `bladerub.study.solver.rows`.
-    """
-    if run.row:
-        row = run.row, blade, case, run.spec
-        return rows().compute(*row, key, analysis, run.keep_history, progress)
-    result = (solve or Solver().simulate)(blade, run.spec, progress)
-    return stored_run(case, run.spec, result, key, analysis, run.keep_history)
 
 
 @dataclass(frozen=True)
@@ -131,6 +111,8 @@ class _Job:
     report: Callable[[object], None]
     threads: int
     folder: Path | None = None  # of the files; None for what stays in memory
+    progress: Callable[[int], None] | None = None
+    solver: Solver | None = None
 
     def longer(self, run: PlannedRun, amplitude: np.ndarray, status: str) -> PlannedRun | None:
         """Plan the longer run of one that grows and is to be followed; none grows that is one itself."""
@@ -201,7 +183,8 @@ class _Job:
 
         def compute_row(run: PlannedRun) -> tuple[StoredRun, float]:
             start = time.monotonic()
-            stored = compute(case, run, self.blade, run.key(self.blade_digest), analysis)
+            row = run.row, self.blade, case, run.spec, run.key(self.blade_digest)
+            stored = rows().compute(*row, analysis, run.keep_history, self.progress)
             return stored, time.monotonic() - start
 
         def revolutions(number: int, result: RunResult) -> int:
@@ -210,9 +193,9 @@ class _Job:
             return run.spec.revolutions if run and not is_there else 0
 
         single = [run for run in runs if not run.row]
-        specs, solver = [run.spec for run in single], solver_of(self.config)
-        solved = solver.simulate_many(self.blade, specs, self.threads, self.report, longer=revolutions)
-        for number, result, seconds in solved:
+        specs, solver = [run.spec for run in single], self.solver or solver_of(self.config)
+        how = self.threads, self.report, self.progress, revolutions
+        for number, result, seconds in solver.simulate_many(self.blade, specs, *how):
             run = single[number]
             if result.revolution_amplitude.size > run.spec.revolutions:
                 run = longer_run(self.config, run)

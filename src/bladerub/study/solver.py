@@ -27,9 +27,6 @@ ROW = "rotor"
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
-Solve = Callable[[ReducedBlade, RunSpec, Callable[[int], None] | None], RunResult]
-"""Simulates one run as `bladerub.contact.run.simulate`."""
-
 
 class Solved(NamedTuple):
     """A run that was computed."""
@@ -61,11 +58,10 @@ class Solver:
         as many revolutions as ``longer(number, result)`` says: a solver that goes on with runs yields it
         again, others begin none.
         """
-        from bladerub.contact.run import simulate_longer  # loads the compiler, which not all need
 
         def timed(number: int) -> tuple[list[RunResult], float]:
             start = time.monotonic()
-            results = simulate_longer(blade, specs[number], partial(longer, number), progress)
+            results = self.simulate_longer(blade, specs[number], partial(longer, number), progress)
             return results, time.monotonic() - start
 
         for number, (results, seconds) in each_done(timed, range(len(specs)), threads):
@@ -73,12 +69,11 @@ class Solver:
             for result, more in zip(results, np.diff(revolutions, prepend=0), strict=True):
                 yield Solved(number, result, seconds * more / revolutions[-1])
 
-    def simulate(
-        self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None
-    ) -> RunResult:
-        """Compute a single run; parameters and errors are those of `simulate_many`."""
-        (solved,) = self.simulate_many(blade, [spec], progress=progress)
-        return solved.result
+    def simulate_longer(self, *run: Any) -> list[RunResult]:
+        """Compute a run and perhaps its longer one, as `bladerub.contact.run.simulate_longer`."""
+        from bladerub.contact import run as one_run  # loads the compiler, which not all need
+
+        return one_run.simulate_longer(*run)
 
     def determinants(self) -> dict[str, str]:
         """Name and digest of what determines a run besides `bladerub.contact.sources`, if anything."""

@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.api.simulate import solve_all
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
 from bladerub.extras.ensembles import interface
+from bladerub.extras.many_runs import solve_all
 from bladerub.io.hdf5 import read_attributes
 from bladerub.study.store import read_run
 

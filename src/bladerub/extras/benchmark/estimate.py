@@ -35,12 +35,12 @@ from bladerub.extras.study_runs import StudyRun, study_runs
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec
-from bladerub.study.job import compute, compute_missing
+from bladerub.study.job import compute_missing
 from bladerub.study.maps import first_frequency
 from bladerub.study.orders import peak_orders
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import each_done
-from bladerub.study.store import write_run
+from bladerub.study.store import stored_run, write_run
 
 DRAWN, DRAWN_WITH_STRESS = 128, 24
 _JOB_OF_RUNS = ("study.job", "study.maps")
@@ -118,15 +118,15 @@ def cost_of_stress(mesh: str | Path, blade: ReducedBlade, config: Config, rounds
     runs = study_runs(config)
     drawn, origin = runs[:: max(1, len(runs) // DRAWN_WITH_STRESS)], provenance(config.plain())
 
-    def stressed(blade: ReducedBlade, spec: RunSpec, progress: None) -> RunResult:
+    def stressed(blade: ReducedBlade, spec: RunSpec) -> RunResult:
         return stress.of_run(spec, last)[0]
 
     def seconds(solve: Callable[..., RunResult], folder: Path) -> float:
         start = time.thread_time()
         for number, run in enumerate(drawn):
-            planned = planned_run(config, run_spec(config, run.case, run.f_omega), f"{number}.h5", False)
-            stored = compute(run.case, planned, blade, "", config.analysis, solve=solve)
-            write_run(folder / planned.file, stored, origin)
+            spec = run_spec(config, run.case, run.f_omega)
+            stored = stored_run(run.case, spec, solve(blade, spec), "", config.analysis, False)
+            write_run(folder / f"{number}.h5", stored, origin)
         return time.thread_time() - start
 
     with tempfile.TemporaryDirectory() as folder:

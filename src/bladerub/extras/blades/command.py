@@ -205,7 +205,7 @@ def _of_matrices(blade: SimpleNamespace) -> dict[str, str]:
 
 
 def _in_words(figures: dict[str, Any]) -> str:
-    from bladerub.blade.accuracy import percent
+    from bladerub.extras.blade_doubts import percent
 
     blade = SimpleNamespace(**figures)
     size, length = f"{blade.nodes} nodes, {blade.unknowns} unknowns", f"{1e3 * blade.length:.4g} mm"

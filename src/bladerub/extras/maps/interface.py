@@ -15,8 +15,8 @@ from bladerub.api.blade import Blade
 from bladerub.api.display import Shown
 from bladerub.api.planned import Quantity, StudyCoating
 from bladerub.api.run import to_dataset
-from bladerub.api.simulate import solve_all
 from bladerub.api.study import settings_of
+from bladerub.extras.many_runs import solve_all
 from bladerub.io.hdf5 import read_attributes
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config

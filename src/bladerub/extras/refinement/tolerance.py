@@ -4,11 +4,11 @@ import logging
 from collections.abc import Callable
 from dataclasses import replace
 
-from bladerub.blade.accuracy import MODES, errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.files import made_from
 from bladerub.blade.reduction import reduce
+from bladerub.extras.blade_doubts import MODES, errors_by_mode
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import BladeSpec
 

@@ -11,7 +11,6 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import mode_shapes_at
 from bladerub.contact.result import RunResult
-from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.stress.nodal import NodalStress, running_displacement
 from bladerub.extras.stress.peak import ModalStress, static_peak, stress_peaks, stressed_nodes
@@ -19,6 +18,7 @@ from bladerub.extras.stress.sampling import SampledRun, simulate_sampled
 from bladerub.io import hdf5
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Material
+from bladerub.study.solver import Solver
 
 INSTANTS = 200
 """A revolution; ten times as many raise the largest von Mises stress by up to 2 %."""
@@ -122,29 +122,34 @@ class BladeStress:
         return run.result, sampled_stress(self.at(spec.f_omega).of(run.patterns), run, last)
 
 
-class StressSolver:
-    """Simulates a run of a single blade, as `bladerub.contact.run.simulate`, and keeps its `stress`.
+class StressSolver(Solver):
+    """Simulates runs of a single blade as `Solver`, and keeps the `stress` of the first.
 
-    The run is that of `simulate` but for rounding in the sums of its energies. `mesh` is the ``mesh.h5`` of
+    The run is that of `Solver` but for rounding in the sums of its energies. `mesh` is the ``mesh.h5`` of
     the blade, `last` how many revolutions are the last ones. The stress is None where the blade is of
     matrices alone, which tell of no stress, or no revolution is complete.
     """
 
     def __init__(self, mesh: str | Path, last: int):
         self._mesh, self._last = mesh, last
+        self._is_done = not has_elements(mesh)
         self.stress: RunStress | None = None
 
-    def __call__(
-        self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None
-    ) -> RunResult:
-        """Simulate the run; its `stress` is there afterwards."""
-        self.stress = None
-        if not has_elements(self._mesh):
-            return simulate(blade, spec, progress)
+    def simulate_longer(
+        self,
+        blade: ReducedBlade,
+        spec: RunSpec,
+        longer: Callable[[RunResult], int],
+        progress: Callable[[int], None] | None = None,
+    ) -> list[RunResult]:
+        """Simulate the first run alone, after which its `stress` is there; later ones as `Solver`."""
+        if self._is_done:
+            return super().simulate_longer(blade, spec, longer, progress)
+        self._is_done = True
         run = simulate_sampled(blade, spec, INSTANTS, progress)
         stress = modal_stress(self._mesh, spec.f_omega, run.patterns)
         self.stress = sampled_stress(stress, run, self._last)
-        return run.result
+        return [run.result]
 
 
 def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress | None:

@@ -8,11 +8,11 @@ import pytest
 from stand_in import COARSE
 
 import bladerub as br
-from bladerub.api.simulate import solve_all
 from bladerub.cli import main
 from bladerub.extras.gpu import emulation, server, solver
 from bladerub.extras.gpu.batch import Output, Work
 from bladerub.extras.gpu.device import NoGpuError
+from bladerub.extras.many_runs import solve_all
 from bladerub.extras.rows.spec import Row
 from bladerub.study.plan import planned_run
 

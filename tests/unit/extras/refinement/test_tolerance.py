@@ -4,9 +4,9 @@ import pandas as pd
 import pytest
 from blade_parts import TWISTED
 
-from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.build import build
 from bladerub.blade.built import BuiltBlade
+from bladerub.extras.blade_doubts import errors_by_mode
 from bladerub.extras.refinement import tolerance as refinement
 from bladerub.settings.blade import BladeSpec, Reduction
 
