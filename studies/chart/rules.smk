@@ -4,6 +4,7 @@ from functools import cache, partial
 
 from bladerub.extras.chart.plan import columns, in_words
 from bladerub.extras.chart.point import PointRow, chart_orders, check
+from bladerub.extras.cores import threads_for
 from bladerub.study.grid import modulus_unit
 
 CHART_PEAKS = config["analysis"]["peaks"] | {"orders": chart_orders(STUDY)}

@@ -81,8 +81,8 @@ rule long_runs:
 
 rule long_coating:
     input:
-        map=rules.coating.output.map,
         **SIMULATING,
+        map=rules.coating.output.map,
         analysing=files_behind("extras.passages.long_runs", "study.peaks", "study.growth"),
     output:
         f"{RESULTS}/long_runs/{{coating}}.h5",

@@ -148,13 +148,15 @@ def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
     assert copied_study.runs() == before
 
 
-def test_quick_study_can_draw_every_figure_and_the_calibration_is_planned_when_asked_for(workspace):
+def test_quick_study_can_draw_every_figure_and_other_studies_are_planned_when_asked_for(workspace):
     shutil.copy(workspace.folder / "config" / "quick.yaml", workspace.folder / "overlay.yaml")
     planned = workspace.dry_run("--configfile", "overlay.yaml")
     said = r"^bladerub: ([\d,]+) of \1 runs of the study .*; \d+ jobs, about \d+ min"
     assert re.search(said, planned, re.MULTILINE)
     assert {f"fig{n:02}" for n in range(1, 20)} == set(re.findall(r"results/figures/(fig\d\d)", planned))
     assert workspace.plan({}, "calibration").keys() == {"compile_kernel", "variation", "calibration"}
+    others = {"chart", "rotor", "rotor37", "sweeps", "long_runs", "robustness", "identify"}
+    assert others <= workspace.plan({}, *sorted(others)).keys()
 
 
 @pytest.mark.nightly

@@ -32,15 +32,9 @@ class Costs(NamedTuple):
         return sum(self.runs.values()) + sum(sum(costs.values()) for costs in self.further.values())
 
     def threads(self, rule: str, coating: str, cores: int | None) -> int:
-        """Return the threads of the job of a rule and a coating, on so many `cores` (None: not known).
-
-        The coating may be one that is run on request. One, unless the job is a large part of what a core has
-        to do: it would end long after all others.
-        """
-        if not cores:
-            return 1
+        """Return the threads of the job of a rule and a coating, which may be one that is run on request."""
         cost = self.further.get(rule, self.runs).get(coating, min(self.runs.values()))
-        return max(1, min(cores, math.ceil(FEWEST * cost / self.total * cores - 1)))
+        return threads_for(cost, self.total, cores)
 
     def priority(self, coating: str) -> float:
         """Priority, below 1, of the runs of a `coating`: the more it and what follows cost, the higher.
@@ -50,6 +44,17 @@ class Costs(NamedTuple):
         """
         of_coating = sum(part.get(coating, 0) for part in (self.runs, *self.further.values()))
         return of_coating / (1 + self.total)
+
+
+def threads_for(cost: float, total: float, cores: int | None) -> int:
+    """Return the threads of a job that has `cost` of the `total` of all jobs, on so many `cores`.
+
+    One where these are not known (None), and unless the job is a large part of what a core has to do: it
+    would end long after all others.
+    """
+    if not cores:
+        return 1
+    return max(1, min(cores, math.ceil(FEWEST * cost / total * cores - 1)))
 
 
 def run_cost(E: float, f_omega: np.ndarray) -> np.ndarray:

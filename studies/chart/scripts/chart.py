@@ -1,6 +1,6 @@
 """Tabulate and draw the chart: its quantities, what the limits leave, and what its peaks follow."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -11,7 +11,6 @@ from bladerub.extras.chart.stress import read_chart
 from bladerub.extras.plots.chart_moduli import chart_map, chart_safe
 from bladerub.extras.plots.chart_peaks import chart_explanation, chart_pareto, chart_stiffening
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 config, unit = typed(snakemake.config), snakemake.params.modulus_unit
 points, limits = list(table.read_points(snakemake.input.manifests)), config.chart.limits

@@ -1,13 +1,12 @@
 """Try the search of the chart on the maps of the study, which has every speed."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.chart.check import summary, table
 from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
-from bladerub.workflow import outputs
 
 compared = table(typed(snakemake.config), map(read_map, snakemake.input.maps))
 outputs.save(snakemake, table=compared, summary=summary(compared))

@@ -1,13 +1,12 @@
 """Find the alternating stress of the blade for each coating of the chart."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.chart import stress, table
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 config, blade = typed(snakemake.config), read_reduced_blade(snakemake.input.blade)
 chart = table.table(config, table.read_points(snakemake.input.manifests))

@@ -1,6 +1,6 @@
 """A figure of the rows of blades: of all combinations, or of those that are swept."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ from bladerub.extras.plots import rotor
 from bladerub.extras.rotor.plan import read_plan
 from bladerub.io import tables
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 draw = {"rotor": rotor.rotor, "rotor_sweeps": rotor.rotor_sweeps}[Path(snakemake.output.png).stem]
 plan = read_plan(snakemake.input.plan, typed(snakemake.config))

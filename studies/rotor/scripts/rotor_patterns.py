@@ -1,6 +1,6 @@
 """Tables of rows of blades whose worn pattern is followed."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -8,7 +8,6 @@ from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.rotor import pattern
 from bladerub.extras.rotor.plan import read_plan
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 config = typed(snakemake.config)
 plan = read_plan(snakemake.input.plan, config)

@@ -1,13 +1,12 @@
 """Tables of the rows of blades."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.rotor import summary
 from bladerub.extras.rotor.plan import read_plan
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 config = typed(snakemake.config)
 plan = read_plan(snakemake.input.plan, config)

@@ -1,6 +1,6 @@
 """Reference numbers of Rotor 37 with their uncertainty, and the figures."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -22,7 +22,6 @@ from bladerub.plots.wear_map import wear_map
 from bladerub.settings.study import typed
 from bladerub.study.grid import coating_cases, modulus_unit
 from bladerub.study.maps import read_map
-from bladerub.workflow import outputs
 
 plain, dpi = snakemake.params.plan[reference.REFERENCE], snakemake.params.dpi
 config, origin, folder = typed(plain), provenance(plain), snakemake.params.folder

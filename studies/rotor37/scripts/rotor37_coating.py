@@ -1,6 +1,6 @@
 """Run one coating of one set of Rotor 37 at all speeds, and measure it."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -11,7 +11,6 @@ from bladerub.io.provenance import provenance
 from bladerub.settings.study import typed
 from bladerub.study.cache import blade_digest
 from bladerub.study.grid import case_from_name
-from bladerub.workflow import outputs
 
 config, model = typed(snakemake.params.config), snakemake.input.blade
 case, blade = case_from_name(config, snakemake.wildcards.coating), read_reduced_blade(model)

@@ -1,6 +1,6 @@
 """Measure blade and direct contact of one set of Rotor 37."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -9,7 +9,6 @@ from bladerub.extras.rotor37 import direct
 from bladerub.extras.rotor37.numbers import of_blade
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 config, blade = typed(snakemake.params.config), read_reduced_blade(snakemake.input.blade)
 results, origin = direct.runs(config, blade), provenance(snakemake.params.config)

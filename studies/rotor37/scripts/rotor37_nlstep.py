@@ -1,6 +1,6 @@
 """Compute the direct contact of Rotor 37 by NLstep, and say which NLstep it was."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.rotor37 import nlstep
 from bladerub.io.provenance import PREFIX, provenance
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 config, function = snakemake.params.config, Path(snakemake.input.program)
 blade = read_reduced_blade(snakemake.input.blade)

@@ -1,6 +1,6 @@
 """Tabulate and draw the findings of all sets of choices."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ import pandas as pd
 
 from bladerub.extras.variations.verdicts import counts, side_by_side, verdicts
 from bladerub.io import tables
-from bladerub.workflow import outputs
 
 paths = [Path(path) for path in snakemake.input.verdicts]
 of_sets = [tables.read(path).assign(set=path.parent.name) for path in paths]

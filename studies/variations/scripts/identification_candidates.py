@@ -1,6 +1,6 @@
 """Choose the best sets of all waves, and draw their neighbours."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -8,7 +8,6 @@ from bladerub.extras.variations import candidates, waves
 from bladerub.extras.variations.identification import measured
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import read
-from bladerub.workflow import outputs
 
 plan = read("identification", snakemake.params.plan)
 quantities = measured(snakemake.input.quantities)

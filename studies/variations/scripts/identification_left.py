@@ -1,6 +1,6 @@
 """Find what the waves up to one have left of the ranges, and draw sets from it."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ from bladerub.extras.variations import identification as summary
 from bladerub.extras.variations import waves
 from bladerub.extras.variations.emulator import emulators
 from bladerub.extras.variations.plan import read
-from bladerub.workflow import outputs
 
 plan, wave = read("identification", snakemake.params.plan), int(snakemake.wildcards.wave)
 measured = summary.measured(snakemake.input.quantities)

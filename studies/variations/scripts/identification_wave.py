@@ -1,13 +1,12 @@
 """List the sets of one wave: the first are spread over all ranges, others drawn from what was left."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.variations import waves
 from bladerub.extras.variations.plan import read
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 plan, wave = read("identification", snakemake.params.plan), int(snakemake.wildcards.wave)
 if wave == 1:

@@ -1,6 +1,6 @@
 """Tabulate and draw what the waves leave of the ranges, and how the best sets do."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ from bladerub.extras.variations.figures import identification as draw
 from bladerub.extras.variations.job import read as joined
 from bladerub.extras.variations.plan import read
 from bladerub.io import tables
-from bladerub.workflow import outputs
 
 plan, inputs = read("identification", snakemake.input.plan), snakemake.input
 measured = summary.measured(inputs.quantities)

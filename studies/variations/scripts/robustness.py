@@ -1,6 +1,6 @@
 """Tabulate and draw the share of the design in which each claim holds, and what decides it."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -8,7 +8,6 @@ from bladerub.extras.variations import robustness as summary
 from bladerub.extras.variations.figures import robustness as draw
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import read
-from bladerub.workflow import outputs
 
 plan = read("robustness", snakemake.input.plan)
 verdicts, cost = summary.collect(snakemake.input.verdicts), read_jobs(snakemake.input.cost)

@@ -1,6 +1,6 @@
 """Simulate some sets of inputs of a plan: the verdicts on the claims, and measures of them."""
 
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -10,7 +10,6 @@ from bladerub.extras.variations.job import cases, judge
 from bladerub.extras.variations.plan import read
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import typed
-from bladerub.workflow import outputs
 
 kind, name, path = snakemake.wildcards.kind, snakemake.wildcards.job, snakemake.params.plan
 plan = read(kind, path)
