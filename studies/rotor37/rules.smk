@@ -90,7 +90,7 @@ rule rotor37:
     input:
         numbers=rotor37_numbers,
         drawing=files_behind(
-            "extras.plots.rotor37",
+            "extras.rotor37.figures",
             "extras.rotor37.reference",
             "plots.spectrum",
             "plots.wear_map",

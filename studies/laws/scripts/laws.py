@@ -4,53 +4,9 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from dataclasses import replace
-
-import pandas as pd
-
-from bladerub.contact.illustration import loading_cycle
-from bladerub.contact.spec import PLASTIC, Coating
-from bladerub.extras.heat import LAYER
-from bladerub.extras.law_reading import described_law
+from bladerub.contact.spec import Coating
+from bladerub.extras.laws import cycles
 from bladerub.extras.plots.law_cycles import law_cycles
 
-STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4
-STEPS = 400  # of each branch
-VISCOSITY = 1e4  # Pa s
-
-of_study = replace(Coating(**snakemake.params.coating), element_law=PLASTIC)
-
-
-def cycle(name, rate=0.0, rise=0.0, **parameters):
-    """Load an element by a law with these parameters at a strain rate (1/s), warmer by `rise` (K)."""
-    coating = replace(of_study, element_law=described_law(name, parameters))
-    return loading_cycle(coating, STRAINS, STEPS, rate, rise)
-
-
-panels = {
-    "(a) perfectly plastic": {"linear hardening": cycle("plastic")}
-    | {
-        f"yields at {stress / 1e6:g} MPa": cycle("perfectly_plastic", yield_stress=stress)
-        for stress in (4e6, 8e6)
-    },
-    f"(b) viscoplastic, {VISCOSITY:g} Pa s": {
-        f"{rate:g}/s": cycle("viscoplastic", rate, viscosity=VISCOSITY) for rate in (1.0, 300.0, 1500.0)
-    },
-    "(c) brittle": {
-        "never breaks": cycle("brittle", break_strain=1.0),
-        "breaks at 0.7 %": cycle("brittle", break_strain=0.007),
-        "breaks at 0.4 %": cycle("brittle", break_strain=0.004),
-    },
-    f"(d) thermal, soft at {LAYER['softening_rise']:g} K": {
-        f"warmer by {rise:g} K": cycle("thermal", 0.0, rise, **LAYER) for rise in (0.0, 150.0, 300.0)
-    },
-}
-table = pd.concat(
-    pd.DataFrame(
-        {"element_law": loading.coating.element_law.label, "law_case": label}
-        | {name: getattr(loading, name) for name in ("strain", "stress", "plastic_strain")}
-    )
-    for cycles in panels.values()
-    for label, loading in cycles.items()
-)
-outputs.save(snakemake, law_cycles(panels), data=table)
+panels = cycles.panels(Coating(**snakemake.params.coating))
+outputs.save(snakemake, law_cycles(panels), data=cycles.table(panels))

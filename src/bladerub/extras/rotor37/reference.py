@@ -1,14 +1,17 @@
 """Reference numbers with their uncertainty: from the same numbers for a plan of variations."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
 
 from bladerub.config import read as configuration
+from bladerub.extras.rotor37.numbers import COLUMNS as NUMBERS
 from bladerub.extras.variations.plan import read
+from bladerub.io import tables
 from bladerub.io.folders import CONFIG, ROOT
 from bladerub.settings.study import Config
+from bladerub.study.grid import coating_cases
 
 PLAN = ROOT / "config" / "rotor37_reference.yaml"
 """What is computed, and with which variations."""
@@ -25,6 +28,26 @@ def plan() -> dict[str, Config]:
     return {
         name: configuration.validate(configuration.vary(study, *part.study), name)
         for name, part in read("calibration", PLAN).parts.items()
+    }
+
+
+def tables_of(folder: str, config: Config) -> dict[str, pd.DataFrame]:
+    """Read the numbers of all sets in `folder` into tables by name, each as of `with_uncertainty`."""
+    cases = coating_cases(config)
+    parts = {
+        "blade": ["blade"],
+        "direct": ["direct"],
+        "interaction": [case.name for case in cases if case.is_rigid],
+        "coatings": [case.name for case in cases if not case.is_rigid],
+    }
+
+    def joined(of_set: str, files: Sequence[str]) -> pd.DataFrame:
+        return pd.concat(tables.read(f"{folder}/{of_set}/numbers/{file}.csv", NUMBERS) for file in files)
+
+    sets = REFERENCE, *VARIATIONS
+    return {
+        name: with_uncertainty({of_set: joined(of_set, files) for of_set in sets})
+        for name, files in parts.items()
     }
 
 
