@@ -79,6 +79,16 @@ def test_rows_that_leave_the_limit_before_the_first_look_are_counted(config, mon
     assert rotor(plan, pd.DataFrame()).texts  # of no rows
 
 
+def test_the_pattern_that_a_row_wears_is_looked_at_every_few_revolutions(config, blade):
+    followed, looks = (
+        Counter({Combination(CASE, 0.2, 2, 5e-5): 1}),
+        Patterns.model_construct(harmonic=2, interval=9),
+    )
+    table = pattern.table(config, blade, Plan(1, Counter(), Counter(), followed, looks))
+    assert table.revolution.tolist() == [9, 18]
+    assert (table.pattern_depth > 1e-9).all()
+
+
 @pytest.mark.parametrize("rate", [0.08, -0.08])
 def test_the_drift_of_lobes_that_turn_evenly_is_their_rate(rate):
     angle = np.arange(240) * (2 * np.pi / 240)

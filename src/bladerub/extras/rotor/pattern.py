@@ -7,6 +7,7 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.strips import element_angle
 from bladerub.extras.rotor.plan import Plan, described
 from bladerub.extras.rotor.settings import Patterns
 from bladerub.extras.rotor.summary import WHAT
@@ -44,14 +45,15 @@ def _of_row(blade: ReducedBlade, spec: RunSpec, row: Row, patterns: Patterns) ->
             break
         ends.append(last)
         wear.append(result.wear.mean(axis=0))
-    coefficients = [component(result.angle, worn, patterns.harmonic) for worn in np.diff(wear, axis=0)]
+    angle = element_angle(spec.coating.n_elements)
+    coefficients = [component(angle, worn, patterns.harmonic) for worn in np.diff(wear, axis=0)]
     if not ends:
         ends, coefficients = [patterns.interval], [np.nan]
-    angle, depth = lobe_angle(np.array(coefficients), patterns.harmonic), np.abs(coefficients)
-    drift = drift_rate(np.array(ends), angle, depth)
+    lobe, depth = lobe_angle(np.array(coefficients), patterns.harmonic), np.abs(coefficients)
+    drift = drift_rate(np.array(ends), lobe, depth)
     return [
         {"revolution": end, "pattern_angle": position, "pattern_depth": deep, "pattern_drift": drift}
-        for end, position, deep in zip(ends, angle, depth, strict=True)
+        for end, position, deep in zip(ends, lobe, depth, strict=True)
     ]
 
 
