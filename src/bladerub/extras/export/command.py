@@ -9,7 +9,6 @@ import numpy as np
 from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
-from bladerub.extras.blades.origin import MESH_SUFFIXES, TABLE_SUFFIXES
 from bladerub.extras.export import blade_command
 from bladerub.io.errors import BadInput
 
@@ -39,9 +38,9 @@ _GOES_WITH = {
 """Options that need one of others."""
 _SUFFIXES = {
     "animation": (".gif",),
-    "mesh": MESH_SUFFIXES,
+    "mesh": (".inp", ".msh", ".vtu"),
     "matrices": (".npz", ".mat"),
-    "sections": TABLE_SUFFIXES,
+    "sections": (".csv", ".txt", ".dat"),
 }
 
 
