@@ -14,8 +14,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`);
                 what the config says below one is in ``SECTIONS``
 ``REDUCTIONS``  what reduces a blade to a tolerance, by that key of ``reduction`` of the config
-``DOUBTS``      what makes the frequencies of a reduced blade doubtful: functions as
-                `bladerub.blade.accuracy.doubts`
+``DOUBTS``      what doubts the frequencies of a blade: functions as `bladerub.blade.accuracy.doubts`
 ``CASINGS``     casings that are no sum of nodal diameters, by the key of the config that describes them
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
 ``VARIANTS``    what reads laws (``law``), and what imports the time loop again with another law of the
@@ -27,9 +26,8 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``COATINGS``    functions of a config that list coatings which are run on request besides its own
 ``COSTS``       what further jobs of a coating cost: functions of config and coating that return a number of
                 runs at its speeds, by the name of the rule
-``SCHEDULES``   what divides the cores of a machine among the jobs: functions of a config that return what has
-                `threads` of a rule, a coating and a number of cores or None, and `priority`, below 1, of a
-                coating
+``SCHEDULES``   what divides the cores among the jobs: functions of a config that return what has `threads`
+                of a rule, a coating and cores (or None), and `priority`, below 1, of a coating
 ``SECTIONS``    keys of the config by their path, such as ``blade.source``, each with its type: a model
                 or an annotated type (`bladerub.settings.fields`). One with a default is in every config,
                 and one below another that plugs in is a key of that. ``casings.<key>`` is a kind of

@@ -114,6 +114,12 @@ def test_what_a_plugin_cannot_add_is_refused_in_a_line(monkeypatch, added, said)
     ("kind", "added", "made", "said"),
     [
         ("SECTIONS", {"solver": "settings.study:Speeds"}, whole, "solver: is a key of the config"),
+        (
+            "SECTIONS",
+            {"casings.amplitude": "settings.study:Speeds"},
+            whole,
+            "amplitude: is a key of every casing",
+        ),
         ("RUN_OPTIONS", {"a": "contact.law"}, parser, "contact.law: must be a class as "),
         ("RUN_OPTIONS", {"a": f"{__name__}:Twice"}, parser, "argument --output: conflicting"),
     ],

@@ -122,7 +122,7 @@ class Cells(NamedTuple):
         """Say what a row has, or a cell: decimal commas, or two numbers, as Fortran fills its columns."""
         if self.separator == "commas" and len(row) > len(self.names):
             return "; with decimal commas, separate the cells by semicolons"
-        for cell in row:
+        for cell in row if len(row) == 1 or self.separator == "white space" else ():
             if _TWO_NUMBERS.match(self._with_point(cell)):
                 return f'; "{cell[:40]}" holds two numbers: columns of fixed width need a blank between them'
         return ""

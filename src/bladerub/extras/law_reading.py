@@ -71,7 +71,7 @@ def law_digest(law: ElementLaw) -> dict[str, str]:
 
 def compile_error(law: ElementLaw, error: Exception) -> BadInput:
     """Return the error of a law that is refused: the innermost of what the compiler says for each caller."""
-    lines = str(error).splitlines()
+    lines = str(error).splitlines() or [type(error).__name__]
     reason = max(
         filter(_REASON.search, lines), key=lambda line: len(line) - len(line.lstrip()), default=lines[0]
     )

@@ -66,11 +66,17 @@ def message_for(error: OSError | BadInput | MissingPart) -> str:
     elif error.errno in _LOCKED:
         problem = f"locked by another program, or its disk has no locks ({problem})"
         remedy = "; close that program, or set HDF5_USE_FILE_LOCKING=FALSE"
-    elif error.errno in _FORBIDDEN and os.path.exists(path) and not os.access(path, os.R_OK):
+    elif error.errno in _FORBIDDEN and path and not _is_readable(path):
         remedy = "; make it readable"
     elif error.errno in _FORBIDDEN:
         remedy = "; make it writable, or choose another folder with the key results of the config"
     return f"{path}{': ' if path else ''}{problem}{remedy}"
+
+
+def _is_readable(path: str) -> bool:
+    """Return whether a file or folder may be read, or is not there, in a folder that may be entered."""
+    entered, entry = os.path.dirname(path) or ".", os.R_OK | os.X_OK * os.path.isdir(path)
+    return os.access(entered, os.X_OK) and (not os.path.lexists(path) or os.access(path, entry))
 
 
 @contextmanager

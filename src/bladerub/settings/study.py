@@ -11,7 +11,7 @@ from bladerub import plugins
 from bladerub.settings.analysis import Analysis, Figures
 from bladerub.settings.blade import BladeSpec
 from bladerub.settings.coatings import Coatings, RunSpeed
-from bladerub.settings.contact import Contact, casings
+from bladerub.settings.contact import Casing, Contact, casings
 from bladerub.settings.fields import BladeLengths, Form, Limit, Number, Omitted, Section, Speed, Unit
 
 
@@ -91,8 +91,9 @@ def whole() -> type[Config]:
     kinds = {
         key.removeprefix("casings."): offered.pop(key) for key in [*offered] if key.startswith("casings.")
     }
-    field = (casings(kinds), ...)
-    study = create_model("Config", __base__=Config, __doc__=Config.__doc__, casings=field)
+    for key in kinds.keys() & Casing.model_fields.keys():
+        raise plugins.refusal("SECTIONS", f"casings.{key}", f"casings.{key}: is a key of every casing")
+    study = create_model("Config", __base__=Config, __doc__=Config.__doc__, casings=(casings(kinds), ...))
     return _extended(study, "", offered)
 
 

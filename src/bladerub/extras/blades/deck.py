@@ -124,7 +124,9 @@ def _materials(path: Path) -> dict[str, dict[str, list[str]]]:
     for keyword, parameters, _, data in blocks(path):
         if keyword == "*MATERIAL":
             name = parameters.get("NAME", "").upper()
-            materials.setdefault(name, {"*ELASTIC": [], "*DENSITY": []})
+            if name in materials:
+                raise ValueError(f"it has the material {name} twice")
+            materials[name] = {"*ELASTIC": [], "*DENSITY": []}
         elif keyword == "*SOLID SECTION":
             used.append(parameters.get("MATERIAL", "").upper())
         elif keyword in materials.get(name, ()):
@@ -148,7 +150,7 @@ def _si(name: str, constants: dict[str, list[str]], unit: str) -> Material:
         except ValueError:  # several lines, too
             values = []
         if not n <= len(values) <= n + 1:  # a temperature may follow
-            raise ValueError(f"{keyword} of {name} is {text}, must be {n} numbers, a temperature aside")
+            raise ValueError(f"{keyword} of {name} is {text[:60]}, must be {n} numbers, a temperature aside")
         numbers += values[:n]
     length, force = UNITS[unit], FORCES.get(unit, 1.0)
     young, poisson, dense = numbers[0] * force / length**2, numbers[1], numbers[2] * force / length**4

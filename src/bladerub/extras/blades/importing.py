@@ -76,7 +76,7 @@ def _nodes(content, points, faces, places, name: str | None, is_tip: bool) -> np
             return facing(points, faces, outwards=is_tip)
         nodes = np.flatnonzero(np.isin(places, _with_middles(content, _named(content, name))))
         if not nodes.size:
-            raise ValueError(f'the set "{name}" has no node of an element')
+            raise ValueError(f'the set "{name}" has no node of an element (a set of other sets is not read)')
     except ValueError as error:
         raise ValueError(f"{'tip' if is_tip else 'root'} not found: {error}") from error
     return nodes

@@ -93,7 +93,8 @@ def read_nodes(path: Path) -> Nodes:
     lines = list(table.rows)
     points = np.stack([table.numbers(name) for name in _POSITION], axis=1)
     if (outliers := (abs(points) > FARTHEST).any(axis=1)).any():
-        raise ValueError(f"line {lines[outliers.argmax()]}: a coordinate is beyond {FARTHEST:g}")
+        largest = abs(points[outliers.argmax()]).max()
+        raise ValueError(f"line {lines[outliers.argmax()]}: has {largest:.3g}, must be {FARTHEST:g} or less")
     number, clamped, tip = (_marks(table, name) if name in names else np.zeros(len(lines)) for name in _MARKS)
     n_nodes = max(int(number.max(initial=0)), FEWEST_NODES)
     for position in range(1, n_nodes + 1):

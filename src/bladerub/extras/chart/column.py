@@ -1,6 +1,5 @@
 """The job of one column of the chart: every point that is missing or stale, and the rows of its manifest."""
 
-import itertools
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
@@ -103,9 +102,10 @@ def compute_missing(
         entries[case] = Entry(folder / f"{case.name}.h5", key, points.MEASURES.keys(), points.KEY)
         runs_keys[case] = digest([run_determinants(config, case, speeds), blade_digest])
 
-    def computed(cases: Sequence[CoatingCase]) -> tuple[list[tuple[CoatingCase, points.ChartPoint]], float]:
+    def compute_alone(case: CoatingCase) -> tuple[points.ChartPoint, float]:
         start = time.monotonic()
-        return list(compute({case: searches[case] for case in cases}, solve)), time.monotonic() - start
+        ((_, point),) = compute({case: searches[case]}, solve)
+        return point, start
 
     with lock.held(column_lock, lambda: report("another job is at work on this column: waiting for its end")):
         missing = [case for case, entry in entries.items() if not entry.fetch()]
@@ -115,14 +115,15 @@ def compute_missing(
             of_runs = replace(entries[case], key=runs_keys[case], attribute=points.RUNS_KEY)
             earlier = points.read(of_runs.path) if of_runs.fetch() else None
             searches[case] = search(config, case, blade, speeds, C1, earlier)
-        parts = [missing] if solver.wants_many else [[case] for case in missing]
-        number = itertools.count(1)
-        for _, (results, seconds) in each_done(computed, parts, 1 if solver.wants_many else threads):
-            for case, point in results:
-                entries[case].make_room()
-                points.write(entries[case].path, point, entries[case].key, runs_keys[case], config)
-                runs = f"{point.known.sum()} runs in {seconds:.1f} s"
-                report(f"[{next(number)}/{len(missing)}] {case.name}: {runs}")
+        results = each_done(compute_alone, searches, threads)
+        if solver.wants_many:
+            start = time.monotonic()
+            results = ((case, (point, start)) for case, point in compute(searches, solve))
+        for number, (case, (point, start)) in enumerate(results, 1):
+            entries[case].make_room()
+            points.write(entries[case].path, point, entries[case].key, runs_keys[case], config)
+            runs = f"{point.known.sum()} runs in {time.monotonic() - start:.1f} s"
+            report(f"[{number}/{len(missing)}] {case.name}: {runs}")
         return [
             PointRow(entry.path.name, entry.key, entry.path.stat().st_size, file_checksum(entry.path))
             for entry in entries.values()

@@ -132,8 +132,8 @@ def compute(
     """Simulate a row, and return what is stored of it.
 
     It is the run of the blade that vibrates most, whose number is the attribute ``blade``, with the energy of
-    the whole row and `DATASETS`. Other parameters are those of `bladerub.study.job.compute`. Raises
-    `ValueError` as `bladerub.extras.rows.row.simulate_row`.
+    the whole row and `DATASETS`. `key` is that of the run, `progress` is called with the number of
+    revolutions done. Raises `ValueError` as `bladerub.extras.rows.row.simulate_row`.
     """
     from bladerub.extras.rows.row import simulate_row  # loads the compiler: who plans runs alone does without
 

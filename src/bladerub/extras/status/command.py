@@ -8,6 +8,7 @@ from typing import Any
 from bladerub import plugins
 from bladerub.api.display import bar
 from bladerub.cli import inputs
+from bladerub.io.errors import BadInput
 from bladerub.settings.units import speeds_in_words
 
 _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unreadable", "unbounded")
@@ -49,6 +50,8 @@ def status(options: argparse.Namespace) -> int:
     from bladerub.study.grid import coating_cases, speeds
     from bladerub.study.plan import coating_plan
 
+    if options.thorough and not plugins.offered("FAULTS"):
+        raise BadInput("--thorough: this package is without what reads files to their ends; leave it out")
     results = inputs.study_folder() / config.results
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
     faults = [examine(results) for examine in plugins.loaded("FAULTS").values()] if options.thorough else []

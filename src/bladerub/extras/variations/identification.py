@@ -20,7 +20,7 @@ _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusi
 
 def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Read the targets of all jobs: a row for each set, a column for each target, in their order."""
-    table = read_jobs(paths).pivot(index="set", columns="target", values="value")
+    table = read_jobs(paths, ["set", "target", "value"]).pivot(index="set", columns="target", values="value")
     return table[[name for name in TARGETS if name in table]]
 
 

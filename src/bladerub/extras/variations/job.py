@@ -3,7 +3,7 @@
 import itertools
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -166,7 +166,7 @@ def blade_of(config: Config, blades: str | Path, report: Callable[[object], None
     return model
 
 
-def read(paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Read a table of several jobs as one."""
-    jobs = list(map(tables.read, paths))
+def read(paths: Iterable[str | Path], columns: Sequence[str] = ()) -> pd.DataFrame:
+    """Read a table of several jobs as one, with at least these columns; raises as `tables.read`."""
+    jobs = [tables.read(path, columns) for path in paths]
     return pd.concat([job for job in jobs if len(job)] or jobs[:1], ignore_index=True)

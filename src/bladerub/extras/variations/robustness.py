@@ -35,7 +35,8 @@ def design(plan: Plan) -> pd.DataFrame:
 
 def collect(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Put the verdicts of all jobs into one table, ordered by claim and sample, the reference first."""
-    table = job.read(paths).rename(columns={"set": "sample"})[["sample", "id", "holds", "margin"]]
+    verdicts = job.read(paths, job.VERDICTS).rename(columns={"set": "sample"})
+    table = verdicts[["sample", "id", "holds", "margin"]].copy()
     table["id"] = pd.Categorical(table["id"], list(_TITLES), ordered=True)
     return table.sort_values(["id", "sample"], ignore_index=True).astype({"id": str})
 

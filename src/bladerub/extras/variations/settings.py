@@ -113,6 +113,8 @@ class Factor(Section):
     def problems(self) -> Iterator[str]:
         """Yield which of its numbers have a range that does not suit the scale or the multiples."""
         for path, ends in self.sets.items():
+            if not keys_of(path):
+                yield f"sets.{path}: must be the path of a number of the config"
             message = f"sets.{path} = [{ends[0]:g}, {ends[1]:g}]: must be"
             if self.scale == "log" and ends[0] <= 0:
                 yield f"{message} above 0 on a logarithmic scale"

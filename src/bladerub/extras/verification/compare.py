@@ -95,11 +95,13 @@ def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
         table = tables.read(folder / path.name, READ)
         for name, content in ((path, reference_table), (folder / path.name, table)):
             _check_numbers(name, content)
+            if "unit" in content:  # "1" is read as a number
+                content["unit"] = content["unit"].astype(str)
         compared = table.reindex(columns=[*READ, "unit", "uncertainty"])
         both = reference_table.merge(compared, how="left", on="number", suffixes=("_reference", ""))
         if "unit" in table:
             _check_units(folder / path.name, both)
-        joint = np.hypot(both.uncertainty_reference, both.uncertainty.fillna(0.0))
+        joint = np.hypot(both.uncertainty_reference, both.uncertainty.astype(float).fillna(0.0))
         both["allowed"] = COVERAGE * joint + _DIGITS * both.value_reference.abs()
         both["agrees"] = (both.value - both.value_reference).abs() <= both.allowed
         both = both.assign(table=path.stem, unit=both.unit_reference, reference=both.value_reference)
@@ -121,7 +123,7 @@ def _check_numbers(path: Path, table: "pd.DataFrame") -> None:
 
 
 def _check_units(path: Path, both: "pd.DataFrame") -> None:
-    other = both[both.value.notna() & (both.unit.astype(str) != both.unit_reference.astype(str))]
+    other = both[both.value.notna() & (both.unit != both.unit_reference)]
     if len(other):
         first = other.iloc[0]
         raise ValueError(f"{path}: {first.number} is in {first.unit}; must be in {first.unit_reference}")
