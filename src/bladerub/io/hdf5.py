@@ -3,7 +3,6 @@
 Each carries its checksum (`bladerub.io.checksum`) as the attribute `CHECKSUM`, which `read` compares.
 """
 
-import hashlib
 import io
 import math
 import os
@@ -42,12 +41,11 @@ def write(
     variables: Mapping[str, Variable],
     attributes: Mapping[str, Any],
     origin: Mapping[str, str] = MappingProxyType({}),
-) -> str:
+) -> None:
     """Write datasets and attributes (numbers and strings) by name to `path`, whole or not at all.
 
-    `origin` are more attributes, from `bladerub.io.provenance.provenance`. Returns the checksum of the file,
-    as of `bladerub.io.checksum.file_checksum`. Raises `ValueError` if two variables disagree on the length of
-    a dimension.
+    `origin` are more attributes, from `bladerub.io.provenance.provenance`. Raises `ValueError` if two
+    variables disagree on the length of a dimension.
     """
     data = {name: np.asarray(variable.data) for name, variable in variables.items()}
     blank = _blank(
@@ -73,7 +71,6 @@ def write(
         image = checksum.seal(file.id.get_file_image())
     with atomic.writing(path, "wb") as stream:
         stream.write(image)
-    return hashlib.sha256(image).hexdigest()
 
 
 @lru_cache(maxsize=8)

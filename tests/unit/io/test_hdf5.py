@@ -80,11 +80,12 @@ def test_a_file_does_not_depend_on_those_before(tmp_path):
     def write(name, n):
         variables = VARIABLES | {"energy": replace(VARIABLES["energy"], data=float(n))}
         attributes = {"status": "x" * n, "n": n, "casing": "2nd"}
-        return hdf5.write(tmp_path / name, variables, attributes)
+        hdf5.write(tmp_path / name, variables, attributes)
+        return file_checksum(tmp_path / name)
 
     first = write("first.h5", 3)
     write("between.h5", 50)
-    assert write("again.h5", 3) == first == file_checksum(tmp_path / "again.h5")
+    assert write("again.h5", 3) == first
 
 
 def test_disagreeing_lengths_are_refused_and_leave_the_old_file(tmp_path):
