@@ -37,7 +37,6 @@ rule blade:
     benchmark:
         f"{RESULTS}/benchmarks/blade.tsv"
     resources:
-        mem_mb=memory_mb,  # 500 measured, and a finer mesh needs more
         runtime=minutes(10),
     params:
         blade=config["blade"],

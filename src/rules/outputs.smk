@@ -77,11 +77,6 @@ class Picture(NamedTuple):
 PICTURES = {}  # by the target that makes them: rules of studies add theirs
 
 
-def memory_mb(wildcards, attempt):
-    """At least three times what was measured."""
-    return 2000 * attempt
-
-
 def minutes(first):
     """Time to ask a cluster for: at least three times what was measured."""
     return lambda wildcards, attempt: first * attempt

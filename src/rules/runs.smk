@@ -49,7 +49,6 @@ rule compile_kernel:
     benchmark:
         f"{RESULTS}/benchmarks/compile_kernel.tsv"
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(5),
     params:
         solver=solver_digest(),
@@ -87,7 +86,6 @@ rule coating:
         "rubs"
     threads: lambda wildcards: threads_of("coating", wildcards.coating)
     resources:
-        mem_mb=memory_mb,  # 240 measured, and two Pythons of Snakemake
         runtime=coating_minutes,
     params:
         folder=subpath(output.manifest, parent=True),

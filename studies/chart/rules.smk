@@ -48,13 +48,10 @@ rule chart_column:
         COLUMN_MANIFEST,
     log:
         f"{RESULTS}/logs/chart_column/{{column}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_column/{{column}}.tsv"
     wildcard_constraints:
         column="[A-Za-z0-9]+_E[^_/]+_theta[^_/]+",
     threads: lambda wildcards: threads_for(1, len(chart_columns()), workflow.resource_settings.cores)
     resources:
-        mem_mb=memory_mb,
         runtime=lambda wildcards, attempt: attempt * (2 + len(config["chart"]["K"])),  # a tenth of it measured
     params:
         plan=planned_points,
@@ -74,10 +71,7 @@ rule chart_stress:
         **described(table=f"{TABLES}/chart_stress.csv"),
     log:
         f"{RESULTS}/logs/chart_stress.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_stress.tsv"
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(60),
     params:
         peaks=CHART_PEAKS,
@@ -111,7 +105,6 @@ rule chart:
     log:
         f"{RESULTS}/logs/chart.log",
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(5),
     params:
         dpi=DPI,

@@ -39,7 +39,6 @@ for table, (modules, first_minutes, inputs, settings) in CONVERGENCE.items():
         log:
             f"{RESULTS}/logs/{table}.log",
         resources:
-            mem_mb=memory_mb,
             runtime=minutes(first_minutes),
         params:
             **settings,

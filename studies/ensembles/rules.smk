@@ -24,7 +24,6 @@ rule ensemble:
         "rubs"
     threads: lambda wildcards: threads_of("ensemble", wildcards.coating)
     resources:
-        mem_mb=memory_mb,
         runtime=coating_minutes,
     params:
         folder=f"{RESULTS}/runs/{{coating}}",

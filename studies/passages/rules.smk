@@ -53,7 +53,6 @@ rule sweep:
         direction="|".join(DIRECTIONS),
         rate=r"[0-9.e+-]+",
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(10),
     params:
         spec=planned_sweep,
@@ -89,7 +88,6 @@ rule long_coating:
     log:
         f"{RESULTS}/logs/long_coating/{{coating}}.log",
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(10),
     params:
         revolutions=config["long_runs"]["revolutions"],

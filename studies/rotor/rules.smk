@@ -34,10 +34,7 @@ rule rotor_combination:
         manifest=ROW_MANIFEST,
     log:
         f"{RESULTS}/logs/rotor_combination/{{combination}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor_combination/{{combination}}.tsv"
     resources:
-        mem_mb=memory_mb,
         runtime=lambda wildcards, attempt: minutes_for(rotor_runs(wildcards.combination).runs, attempt),
     params:
         folder=subpath(output.manifest, parent=True),
@@ -88,8 +85,6 @@ rule rotor_patterns:
         ),
     log:
         f"{RESULTS}/logs/rotor_patterns.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor_patterns.tsv"
     priority: 1
     params:
         patterns=lambda wildcards: rotor_plan().patterns,
@@ -124,10 +119,6 @@ use rule rotor_figure as rotor_sweeps_figure with:
         f"{RESULTS}/logs/rotor_sweeps_figure.log",
 
 
-localrules:
-    rotor,
-
-
 rule rotor:
     input:
         rotor_manifests,  # Snakemake replaces no lost one for a table that is there
@@ -135,6 +126,7 @@ rule rotor:
         rules.rotor_figure.output,
         lambda wildcards: rules.rotor_sweeps_figure.output if rotor_plan().swept else [],
         lambda wildcards: rules.rotor_patterns.output if rotor_plan().patterns else [],
+    localrule: True
 
 
 PICTURES["rotor_image"] = {

@@ -47,8 +47,6 @@ rule rotor37_independent:
         **described(table=f"{ROTOR37}/independent.csv"),
     log:
         f"{RESULTS}/logs/rotor37_independent.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor37_independent.tsv"
     resources:
         runtime=minutes(10),
     params:
@@ -75,8 +73,6 @@ rule rotor37_nlstep:
         **described(table=f"{ROTOR37}/nlstep.csv"),
     log:
         f"{RESULTS}/logs/rotor37_nlstep.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor37_nlstep.tsv"
     threads: 2
     resources:
         runtime=minutes(60),
@@ -143,10 +139,7 @@ rule rotor37_direct:
         ),
     log:
         f"{RESULTS}/logs/rotor37_direct/{{set}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor37_direct/{{set}}.tsv"
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(5),
     params:
         config=rotor37_set,
@@ -163,10 +156,7 @@ rule rotor37_coating:
         **described(numbers=f"{ROTOR37}/{{set}}/numbers/{{coating}}.csv"),
     log:
         f"{RESULTS}/logs/rotor37_coating/{{set}}/{{coating}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor37_coating/{{set}}/{{coating}}.tsv"
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(10),
     params:
         config=rotor37_set,

@@ -13,7 +13,6 @@ rule stress:
     log:
         f"{RESULTS}/logs/stress.log",
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(20),
     params:
         dpi=DPI,

@@ -76,14 +76,6 @@ def drawn_sets(wildcards):
     return f"{OF_SETS}/{folder}/{name}.csv"
 
 
-def variations_kernels(wildcards):
-    """The machine code that the sets need: jobs that start together would all compile it."""
-    factors = variations_plan(wildcards.kind).factors.values()
-    turns = any("contact.tip_turns" in factor.sets for factor in factors)
-    both = [rules.compile_kernel.output[0], rules.identification_kernel.output[0]]
-    return both if turns else both[:1]
-
-
 def variation_minutes(wildcards, attempt):
     """As `coating_minutes`, over the coatings and elements of the small studies, and a minute for each blade."""
     from bladerub.extras.variations.job import minutes
@@ -92,22 +84,11 @@ def variation_minutes(wildcards, attempt):
     return attempt * minutes(STUDY, plan, plan.jobs()[wildcards.job])
 
 
-use rule compile_kernel as identification_kernel with:
-    output:
-        f"{OF_SETS}/kernel.json",
-    log:
-        f"{RESULTS}/logs/identification_kernel.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/identification_kernel.tsv"
-    params:
-        tip_turns=True,
-
-
 # The one kind of job; the blades are beside it, undeclared, under the digest of what they are built from
 rule variation:
     input:
         sets=drawn_sets,
-        kernel=variations_kernels,
+        kernel=rules.compile_kernel.output[0],
         building=rules.blade.input.code,
         given=rules.blade.input.given,
         simulating=files_behind("extras.variations.job", "study.findings"),
@@ -117,13 +98,10 @@ rule variation:
         ),
     log:
         f"{RESULTS}/logs/{{kind}}/{{job}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/{{kind}}/{{job}}.tsv"
     wildcard_constraints:
         kind="|".join(PLANS),
         job="[A-Za-z0-9_.]+(/[A-Za-z0-9_]+)?",
     resources:
-        mem_mb=memory_mb,  # 600 measured
         runtime=variation_minutes,
     params:
         plan=lambda wildcards: PLANS[wildcards.kind],
@@ -192,7 +170,6 @@ rule identification_wave:
     wildcard_constraints:
         wave="[0-9]+",
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(5),
     params:
         **SAMPLING,
@@ -213,7 +190,6 @@ rule identification_left:
     wildcard_constraints:
         wave="[0-9]+",
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(120),
     params:
         **SAMPLING,
@@ -233,7 +209,6 @@ rule identification_candidates:
     log:
         f"{RESULTS}/logs/identification_candidates.log",
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(5),
     params:
         **SAMPLING,
@@ -259,7 +234,6 @@ rule identify:
     log:
         f"{RESULTS}/logs/identify.log",
     resources:
-        mem_mb=memory_mb,
         runtime=minutes(10),
     params:
         dpi=DPI,

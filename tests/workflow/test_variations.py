@@ -55,7 +55,6 @@ def read(workspace, name):
 def test_jobs_are_planned(planned, tiny):
     assert planned.plan(tiny, "robustness") == {"variation": 5, "robustness": 1}
     assert planned.plan(tiny, "identify") == {
-        "identification_kernel": 1,
         "identification_wave": 2,
         "variation": 5 + 4,  # of the sets, and of candidates and neighbours
         "identification_left": 2,

@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.variations.emulator import Emulator, HeldOut, Predicted, compared, held_out
+from bladerub.extras.variations import emulator as emulation
+from bladerub.extras.variations import waves
+from bladerub.extras.variations.emulator import Emulator, HeldOut, Predicted
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
-from bladerub.extras.variations.waves import CUTOFF, Remaining, implausibility, with_values
 from bladerub.study.findings.claim import YES
 
 _RARE = 0.05  # a claim that holds in fewer sets says nothing about which others it goes with
@@ -26,19 +27,44 @@ def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
 
 def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame:
     """List every simulated set: a row for each factor, with its position and value, and the set's misfit."""
-    table = with_values(plan, positions)
+    table = waves.with_values(plan, positions)
     return table.assign(misfit=table.set.map(misfit))
 
 
-def emulated(wave: int, emulators: Mapping[str, Emulator], remainder: Remaining) -> pd.DataFrame:
+def left(plan: Plan, wave: int, measured: pd.DataFrame, positions: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """Find what the waves up to one leave of the ranges, and draw the sets of the next; tables by name.
+
+    `measured` is of the simulated sets of these waves, `positions` of all of them, a row a set.
+    """
+    simulated = positions.loc[measured.index].to_numpy()
+    emulators = emulation.emulators(simulated, measured)
+    remainder = waves.remaining(plan, emulators)
+    drawn, first = waves.draw(plan, wave, remainder, emulators, simulated), plan.first(wave + 1)
+    summary = {
+        "wave": wave,
+        "sets": len(measured),
+        "given_up": remainder.given_up,
+        "remaining": remainder.share,
+    }
+    return {
+        "left": pd.DataFrame([summary]),
+        "emulators": _emulated(wave, emulators, remainder),
+        "ranges": _ranges(plan, remainder),
+        "next_sets": waves.as_table(plan, first, drawn),
+        "predictions": _predictions(emulators, first, drawn),
+    }
+
+
+def _emulated(wave: int, emulators: Mapping[str, Emulator], remainder: waves.Remaining) -> pd.DataFrame:
     """Say how well each target is predicted (`HeldOut`), and the share of the volume that it leaves."""
     rows = [
-        (wave, name, *held_out(emulator), remainder.plausible[name]) for name, emulator in emulators.items()
+        (wave, name, *emulation.held_out(emulator), remainder.plausible[name])
+        for name, emulator in emulators.items()
     ]
     return pd.DataFrame(rows, columns=["wave", "target", *HeldOut._fields, "plausible"])
 
 
-def predictions(emulators: Mapping[str, Emulator], first: int, drawn: np.ndarray) -> pd.DataFrame:
+def _predictions(emulators: Mapping[str, Emulator], first: int, drawn: np.ndarray) -> pd.DataFrame:
     """Predict the targets of the sets `drawn` (n, d), numbered from `first`, before they are simulated."""
     rows = [
         (number, name, mean, deviation)
@@ -53,7 +79,7 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
 
     `measured` is of all sets, the study's own the first; `predictions` are of sets that were simulated later.
     """
-    rows, implausible = [], implausibility(measured)
+    rows, implausible = [], waves.implausibility(measured)
     for name, values in measured.items():
         target, of_target = TARGETS[name], predictions[predictions.target == name].set_index("set")
         later = of_target.join(values.rename("simulated"), how="inner").dropna()
@@ -68,14 +94,14 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
                 "own_value": values.iloc[0],
                 "lowest": values.min(),
                 "highest": values.max(),
-                "plausible": float((implausible[name] <= CUTOFF).mean()),
-                **compared(later.simulated.to_numpy(), predicted)._asdict(),
+                "plausible": float((implausible[name] <= waves.CUTOFF).mean()),
+                **emulation.compared(later.simulated.to_numpy(), predicted)._asdict(),
             }
         )
     return pd.DataFrame(rows)
 
 
-def ranges(plan: Plan, remainder: Remaining) -> pd.DataFrame:
+def _ranges(plan: Plan, remainder: waves.Remaining) -> pd.DataFrame:
     """Say what is left of the range of each factor: its own, and the middle 90 % of what is left."""
     rows = []
     for (name, factor), positions in zip(plan.factors.items(), remainder.points.T, strict=True):
