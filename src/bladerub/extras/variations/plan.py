@@ -99,11 +99,15 @@ class Plan:
     def listed(self, study: Config) -> np.ndarray:
         """Return the positions of the study's own values, then of the listed sets, (1 + n_sets, d).
 
-        Raises `ConfigError` if one of the study's own is outside the range of its factor.
+        Raises `ConfigError` if one of the study's own is outside the range of its factor, or is none.
         """
-        own = {name: factor.own(study) for name, factor in self.factors.items()}
+        own = {}
         for name, factor in self.factors.items():
             low, high = factor.range
+            try:
+                own[name] = factor.own(study)
+            except (IndexError, KeyError, TypeError, ValueError):
+                raise self._no_number(name, next(iter(factor.sets))) from None
             if not low <= own[name] <= high:
                 key = f"factors.{name}.sets.{next(iter(factor.sets))} = {format_value([low, high])}"
                 text = f"{key}: must hold the study's own value, {own[name]:g}"
@@ -135,14 +139,17 @@ class Plan:
                     group = reduce(lambda inner, part: inner.content[part], parents, config).content
                     present = group[last].plain()
                 except (AttributeError, IndexError, KeyError, TypeError):
-                    text = f"{key}: must be a number of the study, it has none there"
-                    raise ConfigError.at(location, text) from None
+                    raise self._no_number(name, path) from None
                 if isinstance(present, bool):
                     value = value >= 0.5
                 elif not is_number(present):
                     raise ConfigError.at(location, f"{key} = {format_value(present)}: must be a number")
                 group[last] = Located(value, location)
         return config
+
+    def _no_number(self, name: str, path: str) -> ConfigError:
+        text = f"factors.{name}.sets.{path}: must be a number of the study, it has none there"
+        return ConfigError.at(location_of(text, self.locations), text)
 
 
 def read(kind: str, path: str | Path, key: str | None = None) -> Plan:

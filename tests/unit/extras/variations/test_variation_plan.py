@@ -1,4 +1,5 @@
 import copy
+import dataclasses
 import functools
 import itertools
 import operator
@@ -131,6 +132,9 @@ def test_only_what_determines_a_sample_is_a_reason_to_run_it(config, make):
     assert list(plan.factors) == [entry[0] for entry in before[8:]]
     with pytest.raises(ConfigError, match=r"factors.damping.sets.* must hold the study's own value, 0.02"):
         plan.listed(config.replaced("contact.damping_ratio", 0.02))
+    nowhere = plan.factors["damping"].model_copy(update={"sets": {"contact.none": [0, 1]}})
+    with pytest.raises(ConfigError, match=r"factors.damping.sets.contact.none: must be a number"):
+        dataclasses.replace(plan, factors={"damping": nowhere}).listed(config)
     after = determinants(stiffer, plan, job)
     assert not set(map(str, after[:8])) & set(map(str, before[:8]))
 
