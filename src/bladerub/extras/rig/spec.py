@@ -9,6 +9,7 @@ from pydantic import Field
 
 from bladerub.config.errors import ConfigError
 from bladerub.config.problems import problems
+from bladerub.config.read import location_of
 from bladerub.contact.laws import element_law
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras import plans
@@ -158,12 +159,13 @@ class Rig:
 
 def read_rigs(path: str | Path) -> list[Rig]:
     """Read rigs; raises `ConfigError`, with file, line, key, value and what would be right."""
-    rigs = []
-    for name, located in plans.read_plan(path, RigPlan).content["rigs"].content.items():
+    rigs, plan = [], plans.read_plan(path, RigPlan)
+    for name, located in plan.content["rigs"].content.items():
         rig, within = RigSettings.model_validate(located.plain()), f"rigs.{name}.law"
         try:
             law, within = element_law(rig.law), f"rigs.{name}"
             rigs.append(Rig(name, **rig.plain() | {"law": law, "assumed": tuple(rig.assumed)}))
         except ValueError as error:
-            raise ConfigError.at(located.location, f"{within}.{error}") from error
+            text = f"{within}.{error}"
+            raise ConfigError.at(location_of(text, plan.locations()), text) from error
     return rigs
