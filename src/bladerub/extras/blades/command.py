@@ -12,8 +12,10 @@ import yaml
 
 from bladerub.cli import inputs
 from bladerub.config import read as configuration
+from bladerub.config.files import Located
 from bladerub.config.keys import key_of
 from bladerub.config.problems import problems
+from bladerub.config.quantities import converted
 from bladerub.extras.blades import deck, origin, section_table, settings
 from bladerub.extras.blades.frame import Frame
 from bladerub.io.errors import BadInput
@@ -52,7 +54,7 @@ def add_to(commands: Any) -> None:
     for name, key in key_of(settings.Source).fields().items():
         if name not in _PLACES:
             option, text = f"--{name.replace('_', '-')}", key.description.replace("%", "%%")
-            kind, metavar = (float, key.unit.name) if key.kind == "a number" else (None, None)
+            kind, metavar = (inputs.quantity, key.unit.name) if key.kind == "a number" else (None, None)
             parser.option(option, text, kind, choices=key.choices or None, metavar=metavar)
 
 
@@ -67,7 +69,8 @@ def import_blade(options: argparse.Namespace) -> None:
     entry_path = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
     in_config = config.blade.plain().get("source", {})
     values = {name: getattr(options, name, None) for name in settings.Source.model_fields}
-    values = in_config | {name: value for name, value in values.items() if value is not None}
+    values = {name: value for name, value in values.items() if value is not None}
+    values = in_config | converted(Located.of(values), settings.Source)[0].plain()
     entry = {kind: str(entry_path)} | asdict(Frame())
     entry |= {name: value for name, value in values.items() if name not in _PLACES}
 

@@ -37,6 +37,7 @@ def test_what_it_prints_is_a_config_of_the_blade(written, command, refusal, tmp_
     (tmp_path / "printed.yaml").write_text(out.split("are absolute\n")[1])
     assert command("import", written / "m", "--config", tmp_path / "printed.yaml") == (0, out, "")
     refusal("import", written / "m", "--omega-max", "400")
+    assert "376.991 rad/s" in refusal("import", written / "m", "--omega-max", "60 Hz")
 
 
 def test_a_blade_without_elements_goes_to_programs_that_need_none(
