@@ -225,12 +225,12 @@ def directions(position: np.ndarray, tip_cone: float) -> tuple[np.ndarray, np.nd
 def tip_slope(
     mesh: BladeMesh, recovery: np.ndarray, radial: np.ndarray, tangential: np.ndarray
 ) -> np.ndarray | None:
-    """Circumferential slope (8, n) of the tip at each interface node, per unit of each coordinate.
+    """Circumferential slope (j, n) of the tip at each interface node, per unit of each coordinate.
 
     A plane is fitted to the radial displacement of the tip's nodes around, within `REACH`. The slope is that
     of the plane along the casing, positive where the side ahead in the rotation rises. None if some interface
     node has too few neighbours on the tip for a plane. `recovery` (n, n_nodes, 3) is the displacement of the
-    nodes per unit of each coordinate; `radial` and `tangential` (8, 3) are the directions at the interface.
+    nodes per unit of each coordinate; `radial` and `tangential` (j, 3) are the directions at the interface.
     """
     points = mesh.mesh.points
     nodes = points[mesh.interface]

@@ -21,14 +21,14 @@ def closest_position(tip, tangential, travel):
 
 @inlined
 def normal_approach(tip, radial, tangential):
-    """Displacement of each node towards the casing, the product (u · n) of eq. (8), m."""
+    """Displacement of each node towards the casing, m: minus the product u · n of eq. (8)."""
     outward = load(tip.radius, 0) + radial
     return sqrt(outward * outward + tangential * tangential) - load(tip.radius, 0)
 
 
 @inlined
 def normal(tip, radial, tangential, approach):
-    """Outward normal n of the casing at each node, by its own radial and tangential direction."""
+    """Direction into the casing at each node, minus the n of eq. (8): radial and tangential component."""
     share = 1.0 / (load(tip.radius, 0) + approach)
     return share * (load(tip.radius, 0) + radial), share * tangential
 

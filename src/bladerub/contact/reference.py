@@ -6,6 +6,8 @@ against it. To see the model at work:
     history, wear = simulate(blade, spec, n_steps=20_000)
 """
 
+from dataclasses import replace
+
 import numpy as np
 import scipy.linalg
 
@@ -26,8 +28,8 @@ def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarr
     blade : ReducedBlade
         The blade, with j interface nodes.
     spec : RunSpec
-        The run, from rest; `scheme` is taken to be the paper's. Coulomb friction, the rigid casing, other
-        laws of the coating and a tip that turns are left to the time loop.
+        The run, from rest, here by the paper's scheme and a step that suits it. Coulomb friction, the rigid
+        casing, other laws of the coating and a tip that turns are left to the time loop.
     n_steps : int
         Time steps.
 
@@ -38,7 +40,8 @@ def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarr
     wear : (j, N) ndarray
         Permanent shortening of the elements, m.
     """
-    h, N, θ, ξ = time_step(blade, spec), spec.coating.n_elements, spec.coating.theta, spec.damping_ratio
+    h = time_step(blade, replace(spec, scheme="central_differences"))
+    N, θ, ξ = spec.coating.n_elements, spec.coating.theta, spec.damping_ratio
     Ω = 2 * np.pi * spec.f_omega * blade.f1_hz
     e_r, e_θ = np.split(at_tip(blade, np.eye(len(blade.mass))), 2)  # rows over the coordinates of eq. (6)
     r, R = (radius[:, None] for radius in tip_radii(blade))  # of the nodes, and of curvature of their paths
@@ -47,7 +50,8 @@ def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarr
     g_0 = casing.gap(spec.casing, running_clearance(blade, spec)[:, None], β)
     element = law.element(spec.coating, element_area(blade, spec)[:, None])
 
-    # eq. (1), M u'' + D u' + K u + F = 0, in the coordinates of eq. (6); K by eq. (2), ξ alike in all modes
+    # eq. (1), M u'' + D u' + K u = F in the coordinates of eq. (6), F on the blade (the paper has it on the
+    # left, but gives the components of that on the blade); K by eq. (2), ξ alike in all modes
     M, K = blade.mass, blade.stiffness(spec.f_omega)
     squares, Φ = scipy.linalg.eigh(K, M)
     D = M @ Φ @ np.diag(2 * ξ * np.sqrt(squares)) @ Φ.T @ M
@@ -62,7 +66,7 @@ def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarr
         # eq. (7): the closest point of the casing turns with the blade and moves with its vibration
         y = φ + Ω * (step + 1) * h + u_θ / r
         x = ((β - y + np.pi) % (2 * np.pi) - np.pi) * N / (2 * np.pi)  # of each element, in their widths
-        # eq. (8): g = g₀ + (u^m − u^s) · n, under the profile of Fig. 3
+        # eq. (8): g = g₀ + (u^m − u^s) · n, n out of the coating, under the profile of Fig. 3
         g = g_0 - (np.hypot(R + u_r, u_θ) - R - relief(spec.tip, x)) + u_s
         # eq. (9): t_N ≥ 0, g ≥ 0, t_N g = 0, where the coating answers to the penetration by Fig. 4
         t_N, increment = law.return_mapping(element, -g, u_s)

@@ -64,7 +64,7 @@ class Outcome:
         The same in words.
     angle : (N,) ndarray
         Casing angle of the element centres, rad.
-    wear : (8, N) ndarray
+    wear : (j, N) ndarray
         Permanent shortening of each element under each node, m.
     radial_displacement : (revolutions N,) ndarray
         Of node 1, mean over the passage of each element, m; NaN after an early end.
@@ -76,7 +76,7 @@ class Outcome:
     n_steps, n_contact_steps : int
         Time steps, and those of them with contact.
     energy : Energy
-    layer : dict of str to (8, N) ndarray
+    layer : dict of str to (j, N) ndarray
         What else the law of the coating leaves in the elements, by name; nothing by the paper's.
     """
 

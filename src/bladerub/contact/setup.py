@@ -16,14 +16,7 @@ from bladerub.contact.laws import compile_error, element_parameters, module_for,
 from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence
 from bladerub.contact.spec import PLASTIC, ElementLaw, RunSpec
-from bladerub.contact.start import (
-    ALONE,
-    Seat,
-    deflect,
-    force_direction,
-    stator_record,
-    tip_record,
-)
+from bladerub.contact.start import ALONE, Seat, deflect, force_direction, stator_record, tip_record
 from bladerub.contact.steps import own_steps, steps_per_element, with_steps
 from bladerub.contact.strips import element_area, element_passage
 from bladerub.contact.tip import edge

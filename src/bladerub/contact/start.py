@@ -113,7 +113,7 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
 
 
 def minimum_gap(rows: np.ndarray, half_width: float) -> np.ndarray:
-    """Smallest gap (N,) that any node may meet in the passage of an element, from the gaps (8, N) in rows."""
+    """Smallest gap (N,) that any node may meet in the passage of an element, from the gaps (j, N) in rows."""
     reach = half_width + 1 + SEARCH_RANGE + 1  # + 1 each: a node stands anywhere within an element
     half = math.ceil(reach)
     around = np.pad(rows.min(axis=0), half, mode="wrap")

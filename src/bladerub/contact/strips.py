@@ -18,33 +18,33 @@ def element_passage(blade: ReducedBlade, spec: RunSpec) -> float:
 
 
 def element_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Area (8,) of one element under each node, m²."""
+    """Area (j,) of one element under each node, m²."""
     radius, _ = tip_radii(blade)
     return strip_width(blade) * 2 * np.pi * radius / spec.coating.n_elements
 
 
 def strip_width(blade: ReducedBlade) -> np.ndarray:
-    """Axial width (8,) of the coating strip under each interface node, m: its share of the axial chord."""
+    """Axial width (j,) of the coating strip under each interface node, m: its share of the axial chord."""
     x = blade.node_position[:, 0]
     middle = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
     return np.abs(np.diff(middle))
 
 
 def running_clearance(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Clearance (8,) of each interface node, linear along the chord, m."""
+    """Clearance (j,) of each interface node, linear along the chord, m."""
     x, (leading, trailing) = blade.node_position[:, 0], spec.clearance
     return leading + (trailing - leading) * ((x - x[0]) / (x[-1] - x[0]))
 
 
 def start_position(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Position (8,) of each node at the start of a revolution, in elements, within [0, N)."""
+    """Position (j,) of each node at the start of a revolution, in elements, within [0, N)."""
     angle = spec.casing.start_angle + np.arctan2(blade.node_position[:, 1], blade.node_position[:, 2])
     n_elements = spec.coating.n_elements
     return angle / (2 * np.pi) * n_elements % n_elements
 
 
 def first_element(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Element (8,) that each node stands over at the start of a revolution: the first row."""
+    """Element (j,) that each node stands over at the start of a revolution: the first row."""
     return start_position(blade, spec).astype(int)
 
 

@@ -35,7 +35,8 @@ def mean_coverage(share, share_before, per_advance):
     """Mean of `coverage` while it goes from `share_before` to `share`.
 
     `per_advance` is one over the elements that the tip passes meanwhile, one at most. The share changes by as
-    much, or by less where it leaves 0 or 1 on the way, or reaches them.
+    much, or by less where it leaves 0 or 1 on the way, or reaches them. Under a `half_width` below 1 it may
+    rise and fall meanwhile, which this misses.
     """
     change = absolute(share - share_before)
     bend = 0.5 * change * (1.0 - change * per_advance)

@@ -48,7 +48,7 @@ MAPPED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude
 class StoredRun:
     """What is stored of a run: its attributes, and its datasets by name in SI units.
 
-    The datasets are ``wear`` (8, n), ``angle`` (n,), ``spectrum_order`` and ``spectrum_amplitude`` (m,),
+    The datasets are ``wear`` (j, n), ``angle`` (n,), ``spectrum_order`` and ``spectrum_amplitude`` (m,),
     ``revolution_peak``, ``revolution_amplitude`` and ``revolution_number`` (r,), ``energy_*`` (scalars), and
     for runs with history ``radial_displacement`` over ``revolution`` (r n,); and what the `layer` has.
     """
@@ -58,7 +58,7 @@ class StoredRun:
 
     @property
     def layer(self) -> dict[str, np.ndarray]:
-        """What else than wear the law of the coating leaves in the elements (8, n), by name."""
+        """What else than wear the law of the coating leaves in the elements (j, n), by name."""
         shape = datasets()["wear"][0]
         layers = {name for name, (dims, *_) in datasets().items() if dims == shape} - {"wear"}
         return {name: self.data[name] for name in sorted(layers & self.data.keys())}

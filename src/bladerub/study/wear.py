@@ -11,7 +11,7 @@ and twenty lobes further apart."""
 def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
     """Count the worn lobes around the circumference; their number does not change when the casing is turned.
 
-    The worn depth `wear`, (8, n) or (n,), m, is averaged over the nodes and smoothed around the circle over
+    The worn depth `wear`, (j, n) or (n,), m, is averaged over the nodes and smoothed around the circle over
     `SMOOTHING_ANGLE`; `angle` (n,), rad, is even around it. A lobe is a maximum above the valleys on both
     sides by at least `prominence` of the greatest smoothed depth. A casing that is worn evenly all around has
     none.
@@ -30,7 +30,7 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
 def dominant_harmonic(wear: np.ndarray) -> tuple[int, float]:
     """Find the harmonic of the casing angle that is strongest in the worn depth: `lobes` without a threshold.
 
-    `wear` is (8, n) or (n,) at even angles, m. Returns the harmonic, 1 or more, and its share of the variance
+    `wear` is (j, n) or (n,) at even angles, m. Returns the harmonic, 1 or more, and its share of the variance
     of the mean over the nodes; (0, 0.0) where the casing is not worn, or evenly.
     """
     depth = np.atleast_2d(wear).mean(axis=0)

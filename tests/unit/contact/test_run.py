@@ -51,6 +51,14 @@ def test_loop_agrees_with_numpy_reference_to_rounding(spec, change, scheme, step
     assert result.revolution_amplitude[0] == pytest.approx(np.ptp(history[:, 0]) / 2, rel=3e-4)
 
 
+def test_reference_takes_a_step_of_its_scheme_whatever_that_of_the_run(blade, spec, change):
+    spec = change(spec, steps_per_element=0, max_time_step=np.inf)
+    history, wear = reference.simulate(blade, spec, 2000)
+    papers, _ = reference.simulate(blade, change(spec, scheme="central_differences"), 2000)
+    np.testing.assert_array_equal(history, papers)
+    assert 0 < wear.max() < 1e-3
+
+
 @pytest.fixture(scope="module")
 def turning_blade(blade):
     """The blade with a tip that turns by some degrees for a millimetre along the casing."""

@@ -3,8 +3,8 @@
 The unknown is the pose of the profile of each node, which is its approach a to the casing. The forces N(a) of
 the elements, which are piecewise linear, displace the tip from u₀ to ``u₀ + C F(N)``, C the compliance of the
 scheme. Forces and displacement agree, eqs. (8) and (9), where the residual
-``r(a) = a − n · (u₀ + C F(N(a)))`` vanishes. Normal n, position and rows of elements are those of a nearby
-displacement, and are found again when the nodes move along the casing.
+``r(a) = a − n · (u₀ + C F(N(a)))`` vanishes. Normal n (into the casing), position and rows of elements are
+those of a nearby displacement, and are found again when the nodes move along the casing.
 """
 
 from typing import NamedTuple
@@ -67,7 +67,7 @@ def find_forces(modal, stator, tip, travel, state, u, coulomb):
                 linear_pose, valid = pose, linear.valid
             moved = _displace(modal, stator, tip, state, geometry, linear, pose, free, coulomb)  # u₀ + C F
             change = moved - geometry.displacement
-            loaded_approach = (  # u · n of eq. (8)
+            loaded_approach = (  # n · u, eq. (8)
                 geometry.approach
                 + geometry.normal_radial * change.radial
                 + geometry.normal_tangential * change.tangential
