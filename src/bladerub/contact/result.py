@@ -72,7 +72,7 @@ class Outcome:
         Largest absolute one in each revolution, m; NaN likewise. In free flight
         (`bladerub.contact.kernel.free_flight`) it is that of a parabola.
     revolution_amplitude : (revolutions,) ndarray
-        Half its range in each revolution, m: no mean deflection; NaN likewise.
+        Half its range in each whole revolution, m: no mean deflection; NaN likewise.
     n_steps, n_contact_steps : int
         Time steps, and those of them with contact.
     energy : Energy

@@ -120,6 +120,8 @@ class History:
             status, message = "stopped", f"another blade left the limit after {elapsed:.2f} revolutions"
         # no number where the first step of a revolution left the limit
         lowest, highest = np.where(np.isfinite(self.range), self.range, np.nan).T
+        amplitude = 0.5 * (highest - lowest)
+        amplitude[int(elapsed) :] = np.nan  # half a range is one of a whole revolution alone
         state, layer = simulation.state, simulation.layer
         ledger = energy.balance(rule, state, self.initial, simulation.angle_per_step)
         if not (np.isfinite(ledger.residual) and np.isfinite(state.wear).all()):
@@ -135,7 +137,7 @@ class History:
             "wear": by_angle(blade, spec, state.wear),
             "radial_displacement": self.displacement.ravel(),
             "revolution_peak": np.maximum(np.abs(lowest), np.abs(highest)),
-            "revolution_amplitude": 0.5 * (highest - lowest),
+            "revolution_amplitude": amplitude,
             "n_steps": self.n_steps,
             "n_contact_steps": self.n_contact_steps,
             "energy": ledger,

@@ -5,7 +5,7 @@ The paper calls a run divergent when its amplitude "continuously grows with time
 1. The amplitude A_i is half the range of the radial displacement of node 1 in revolution i. The mean
    deflection in contact, which changes as the coating wears, is no part of it.
 2. The growth rate is the slope s of ln A_i over the last ``revolutions``, by least squares; of an unbounded
-   run, over the last before its end. Growth per revolution is ``exp(s) - 1``.
+   run, over the last whole ones. Growth per revolution is ``exp(s) - 1``.
 3. Its confidence interval is ``exp(s ± t e) - 1``: e is the standard error of the slope from the scatter of
    ln A_i about the line, t the two-sided quantile of Student's distribution at ``confidence`` with n − 2
    degrees of freedom. The scatter counts as `RESOLUTION` at least, and revolutions as independent of each

@@ -198,6 +198,9 @@ def test_unbounded_run_stops_and_keeps_its_data(blade, spec, change):
     assert 0 < result.n_steps < whole.n_steps
     done = np.isfinite(result.radial_displacement)
     assert 0 < done.sum() < done.size
+    whole_revolutions = done.sum() // spec.coating.n_elements
+    assert np.isfinite(result.revolution_amplitude).sum() == whole_revolutions  # by which a run is judged
+    assert np.isfinite(result.revolution_peak).sum() == whole_revolutions + 1
     np.testing.assert_array_equal(result.radial_displacement[done], whole.radial_displacement[done])
     assert result.wear.max() > 0
     assert blade_imbalance(result.energy) < 1e-9
