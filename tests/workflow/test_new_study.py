@@ -69,6 +69,9 @@ def test_the_config_of_a_module_statement_is_that_of_the_study(tmp_path, study, 
     (tmp_path / "config" / "config.yaml").write_text(yaml.safe_dump(content))
     folder = tmp_path / "results" / "rub" / "runs" / "2nd_E3_K0.5_theta0"
     target = f"{folder.relative_to(tmp_path)}/manifest.tsv"
-    Workspace(tmp_path, study.sources).said("snakemake", "-j2", target)
+    workspace = Workspace(tmp_path, study.sources)
+    plan = workspace.call("snakemake", "-n", target).stderr
+    assert re.search(r"(\d+) of \1 runs of the study are to be computed", plan), plan[-500:]
+    workspace.said("snakemake", "-j2", target)
     assert read_run(folder / "0.1500.h5").attributes["revolutions"] == tiny["solver"]["revolutions"]
     assert [path.parent for path in folder.parent.glob("*/manifest.tsv")] == [folder]

@@ -21,7 +21,8 @@ page = build(
     snakemake.input.maps,
     snakemake.input.manifests,
     *shown,
-    snakemake.params.settings | {"doubts": doubts(accuracy, snakemake.params.nominal_speed)},
+    snakemake.params.settings
+    | {"f1_hz": accuracy.f_fe[0], "doubts": doubts(accuracy, snakemake.params.nominal_speed)},
     snakemake.params.configs,
 )
 with atomic.writing(snakemake.output[0]) as stream:

@@ -25,9 +25,12 @@ def announce(
     if workflow.dag is None:  # there was an error
         return
     planned = list(workflow.dag.needrun_jobs(exclude_finished=False))  # to a dry run all are finished
-    jobs = [(job.rule.name, job.wildcards.get("coating")) for job in planned]
+    names, known = (rule.name for rule in workflow.rules), "compile_kernel"
+    # what `use rule * from … as` puts before each name
+    prefix = next((name for name in names if name.endswith(known)), known).removesuffix(known)
+    jobs = [(job.rule.name.removeprefix(prefix), job.wildcards.get("coating")) for job in planned]
     # what simulates waits for the machine code
-    simulating = {job.rule.name for job in planned if hasattr(job.input, "kernel")}
+    simulating = {rule for job, (rule, _) in zip(planned, jobs, strict=True) if hasattr(job.input, "kernel")}
     try:
         line = forecast(config, jobs, cores, plan_of, simulating)
     except OSError as error:

@@ -44,7 +44,8 @@ def build(
     `map_paths` and `manifest_paths` have each coating in the same order, `peaks` and `divergence` are
     ``peaks.csv`` and ``divergence.csv``, `configs` the files that were laid over config/config.yaml.
     `settings` from the config: ``max_frequency`` (normalised), ``amplitude_range`` (m),
-    ``growth_revolutions``, ``spectrum_revolutions`` and ``modulus_unit`` (Pa); ``doubts`` of the blade.
+    ``growth_revolutions``, ``spectrum_revolutions``, ``modulus_unit`` (Pa); of the blade
+    ``f1_hz`` and ``doubts``.
 
     Raises `OSError` if a map or manifest cannot be read, and `ValueError` if the coatings were not computed
     at the same speeds, or the tables are of other ones.

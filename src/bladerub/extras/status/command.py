@@ -47,13 +47,15 @@ def status(options: argparse.Namespace) -> int:
     from bladerub.blade.cache import kept_frequency
     from bladerub.contact.result import UNBALANCED
     from bladerub.extras import inventory
+    from bladerub.io.hdf5 import read_attributes
     from bladerub.study.grid import coating_cases, speeds
     from bladerub.study.plan import coating_plan
 
     if options.thorough and not plugins.offered("FAULTS"):
         raise BadInput("--thorough: this package is without what reads files to their ends; leave it out")
     results = inputs.study_folder() / config.results
-    digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
+    model = results / "blade" / "reduced_model.h5"
+    digest, note = inventory.current_blade(config, model)
     faults = [examine(results) for examine in plugins.loaded("FAULTS").values()] if options.thorough else []
     known = {path for part in faults for path in part.damaged}
     cases, taken = coating_cases(config), {}
@@ -92,7 +94,8 @@ def status(options: argparse.Namespace) -> int:
     for name, of_coating in (counts | {"all": total}).items():
         numbers = [f"{of_coating[column]}" for column in _COLUMNS]
         print(inputs.row(width, name, *numbers, f"{of_coating['bytes'] / 1e6:.1f}"))
-    print(f"\nspeeds: {speeds_in_words(speeds(config), kept_frequency(config))}")
+    f1_hz = read_attributes(model)["f1_hz"] if digest else kept_frequency(config)
+    print(f"\nspeeds: {speeds_in_words(speeds(config), f1_hz)}")
     longer = f"{total['longer_done']} of {total['longer_planned']} done"
     print(f"longer runs, where growth is to be confirmed: {longer}")
     if rows:

@@ -26,6 +26,7 @@ def test_stale_runs_are_counted_and_damaged_ones_named_and_deleted_on_request(
     one = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0.2"]
     folder = tmp_path / "results" / "runs" / "2nd_E2_K0.5_theta0.15"
     assert command(*one, *six_runs, "--output", folder / "0.2000.h5")[0] == 0  # builds the blade
+    assert " rpm" in command("status", *six_runs)[1]  # by the blade of the results
     overlay = tmp_path / "six.yaml"
     overlay.write_text(overlay.read_text().replace("spanwise: 6", "spanwise: 7"))
     printed = figures("status", *six_runs)

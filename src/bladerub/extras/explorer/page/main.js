@@ -120,8 +120,8 @@ function showControls() {
   page("#axis").value = choice.axis;
   page("#same-scale").checked = choice.sameScale;
   page("#speed").value = choice.speed;
-  page("#speed").setAttribute("aria-valuetext", String(study.f_omega[choice.speed]));
-  page("#speed-text").textContent = study.f_omega[choice.speed];
+  page("#speed").setAttribute("aria-valuetext", speedInWords(choice.speed));
+  page("#speed-text").textContent = speedInWords(choice.speed);
   page("#slower").disabled = choice.speed === 0;
   page("#faster").disabled = choice.speed === study.f_omega.length - 1;
   page(`#side [value=${choice.side}]`).checked = true;

@@ -97,7 +97,7 @@ function showRun(shown, choice, goTo) {
   const heads = shown.map(({ side, coating }) =>
     element("th", { scope: "col" }, element("span", { class: `badge ${side}` }, side), ` ${coating.title}`),
   );
-  page("#run-title").replaceChildren("The run at ", element("i", {}, "f"), element("sub", {}, "Ω"), ` = ${study.f_omega[speed]}`);
+  page("#run-title").replaceChildren("The run at ", element("i", {}, "f"), element("sub", {}, "Ω"), ` = ${speedInWords(speed)}`);
   page("#figures thead").replaceChildren(element("tr", {}, element("td"), ...heads));
   page("#figures tbody").replaceChildren(
     ...rows.map(([name, cell]) =>
@@ -238,7 +238,14 @@ function describe(shown, choice) {
     `repetition (line), if it grew. Red: the growth found over the last ${study.growth_revolutions}.`;
 }
 
+// A speed as the study has it, and as an engine has it.
+function speedInWords(speed) {
+  const hz = study.f_omega[speed] * study.f1_hz;
+  return `${study.f_omega[speed]}, ${(60 * hz).toFixed(0)} rpm, ${hz.toFixed(1)} Hz`;
+}
+
 function showUnits() {
+  page("#f1").textContent = `, ${study.f1_hz.toFixed(2)} Hz`;
   for (const place of document.querySelectorAll(".unit")) place.textContent = ` E, K in ${digits(study.modulus_unit / 1e6)} MPa`;
 }
 
