@@ -1,5 +1,9 @@
 """Many runs of a coating in Python, simulated at once."""
 
+import operator
+from contextlib import suppress
+from typing import Any
+
 from bladerub.api.arguments import InputError
 from bladerub.api.blade import Blade
 from bladerub.api.display import bar, step
@@ -15,8 +19,7 @@ def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
 ) -> list[Run]:
     """Simulate `runs` of a coating, `jobs` at once, without histories; others as of `simulate`."""
-    if not isinstance(jobs, int) or jobs < 1:
-        raise InputError("jobs", jobs, "must be at least 1")
+    jobs = whole_number("jobs", jobs)
     with step("compiling the time loop", progress):
         compile_kernel(runs[0].spec.turns, blade.reduced.n_interface, runs[0].spec.coating.element_law)
     runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade
@@ -29,3 +32,11 @@ def solve_all(
         )
     pairs = zip(stored, longer, strict=True)
     return [Run(run, Run(more) if more else None, config=config) for run, more in pairs]
+
+
+def whole_number(name: str, value: Any, largest: int = 10_000) -> int:
+    """Return the argument `name` if it is a whole number, also of numpy, from 1 to the `largest`."""
+    with suppress(TypeError):
+        if not isinstance(value, bool) and 1 <= (number := operator.index(value)) <= largest:
+            return number
+    raise InputError(name, value, f"must be a whole number from 1 to {largest}")

@@ -73,6 +73,7 @@ def benchmark(options: argparse.Namespace) -> None:
         from bladerub.extras.benchmark import record
 
         record.recorded(options.table)  # another table is refused before anything takes time
+        inputs.require_writable("--table", options.table)
     stored_blade, config = inputs.read_blade(options, config)
     blade = stored_blade.reduced
 
@@ -105,6 +106,7 @@ def _on_gpu(options: argparse.Namespace, config: "Config") -> None:
 
     if options.table:
         record.recorded(options.table, gpu.COLUMNS)  # another table is refused before anything takes time
+        inputs.require_writable("--table", options.table)
     with inputs.refused(BadInput):
         name = device.describe()
     blade, config = inputs.read_blade(options, config)
