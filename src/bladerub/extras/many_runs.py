@@ -1,15 +1,11 @@
 """Many runs of a coating in Python, simulated at once."""
 
-import operator
-from contextlib import suppress
-from typing import Any
-
-from bladerub.api.arguments import InputError
 from bladerub.api.blade import Blade
 from bladerub.api.display import bar, step
 from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run
 from bladerub.contact.setup import compile_kernel
+from bladerub.extras.bounds import whole_number
 from bladerub.study.job import compute_all
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import row_of
@@ -32,11 +28,3 @@ def solve_all(
         )
     pairs = zip(stored, longer, strict=True)
     return [Run(run, Run(more) if more else None, config=config) for run, more in pairs]
-
-
-def whole_number(name: str, value: Any, largest: int = 10_000) -> int:
-    """Return the argument `name` if it is a whole number, also of numpy, from 1 to the `largest`."""
-    with suppress(TypeError):
-        if not isinstance(value, bool) and 1 <= (number := operator.index(value)) <= largest:
-            return number
-    raise InputError(name, value, f"must be a whole number from 1 to {largest}")

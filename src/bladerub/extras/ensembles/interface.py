@@ -12,9 +12,10 @@ from bladerub.api.blade import Blade
 from bladerub.api.display import Shown
 from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run, run_of, runs_of
+from bladerub.extras.bounds import whole_number
 from bladerub.extras.ensembles.bands import band
 from bladerub.extras.ensembles.ensemble import starts
-from bladerub.extras.many_runs import solve_all, whole_number
+from bladerub.extras.many_runs import solve_all
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.provenance import PREFIX, config_digest, provenance

@@ -9,6 +9,7 @@ import numpy as np
 from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
+from bladerub.extras.bounds import require
 from bladerub.extras.export import blade_command
 from bladerub.io.errors import BadInput
 
@@ -179,7 +180,7 @@ def _run_of_file(
     options: argparse.Namespace, config: "Config", form: str
 ) -> "tuple[StoredRun, PlannedRun, Blade, Config]":
     """Read the run whose motion is written to a new file or folder, plan it again, and read its blade."""
-    inputs.require(options, samples=(1, config.contact.elements))
+    require(options, samples=(1, config.contact.elements))
     target = getattr(options, form)
     if target.exists():
         kind = "folder" if form == "vtu" else "file"
