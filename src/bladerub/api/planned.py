@@ -85,8 +85,6 @@ class StudyCoating:
     Examples
     --------
     >>> coating = study.coating("2nd", E=2, K=0.5)
-    >>> coating.name
-    '2nd_E2_K0.5_theta0'
     >>> coating.at(0.19, revolutions=5).spec.revolutions
     5
     """

@@ -40,16 +40,12 @@ class Study(Shown):
     >>> study = br.default_study()
     >>> len(study.coatings), study.speeds[[0, -1]].tolist()
     (63, [0.02, 0.4])
-    >>> study.results.name
-    'results'
     >>> study.coating("2nd", E=1.1, K=0.5).name == study.coating("2nd", E="660 MPa", K="300 MPa").name
     True
     >>> study.coating("2nd", E=1.1, K=0.5, damping_ratio=1e-3).name
     '2nd_E1.1_K0.5_theta0_xi0.001'
     >>> study.rigid("2nd", friction=0.1).name
     '2nd_rigid_mu0.1'
-    >>> study.run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).spec.revolutions
-    20
     >>> len(study.run("2nd", E=[1, 2, 4], K=0.5, f_omega=[0.19, 0.2]))
     6
     >>> study.replace("contact.damping_ratio", 1e-3).config.contact.damping_ratio
@@ -66,7 +62,7 @@ class Study(Shown):
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any]) -> "Study":
         """Return the study of nested values as `load_study` does that of a file; raises as `replace`."""
-        if required() <= settings.keys():
+        if isinstance(settings, Mapping) and required() <= settings.keys():
             return cls(configuration.validate({**defaults(), **settings}), study_folder())
         return cls(configuration.read(base_config()), study_folder()).replace(settings)
 
@@ -97,6 +93,8 @@ class Study(Shown):
             for name in reversed(settings.split(".")):
                 value = {name: value}
             settings = value
+        if not isinstance(settings, Mapping):
+            raise InputError("settings", settings, "must be a key with dots, or nested values")
         overlay = Located.of(settings)
         return replace(self, config=configuration.validate(configuration.vary(self.config, overlay)))
 
@@ -272,7 +270,10 @@ def default_study() -> Study:
 
 def settings_of(*configs: Config | None) -> Config:
     """Return the first of the `configs` that there is, or that of the study at work."""
-    return next(filter(None, configs), None) or load_study().config
+    config = next(filter(None, configs), None) or load_study().config
+    if not isinstance(config, Config):
+        raise InputError("config", config, "must be the config of a Study")
+    return config
 
 
 def _found(path: str | Path) -> Path:

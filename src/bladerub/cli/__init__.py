@@ -53,7 +53,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         provide_for_unknown_user()
         exit_code = options.command(options)
-        sys.stdout.flush()
+        print(end="", flush=True)  # standard output may be closed
         return exit_code or 0
     except ConfigError as error:
         print(error, file=sys.stderr)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from bladerub import plugins
 from bladerub.config import read as configuration
-from bladerub.io.errors import BadInput, DamagedFile, format_value, message_for
+from bladerub.io.errors import BadInput, DamagedFile, message_for
 from bladerub.io.folders import base_config, study_folder
 from bladerub.io.plain import plain
 from bladerub.settings import units
@@ -98,14 +98,6 @@ def add_command(commands: Any, name: str, command: Callable, blade: bool = True,
         parser.option("--blade", text, Path, metavar="FILE")
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
     return parser
-
-
-def require(options: argparse.Namespace, **bounds: tuple[int, int]) -> None:
-    """Check options by name against their smallest and largest value; those not given pass."""
-    for option, (smallest, largest) in bounds.items():
-        value = getattr(options, option)
-        if value is not None and not smallest <= value <= largest:
-            raise BadInput(f"--{option} = {format_value(value)}: must be from {smallest} to {largest}")
 
 
 def require_writable(option: str, path: Path) -> None:

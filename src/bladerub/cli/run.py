@@ -200,8 +200,6 @@ def _check_output(path: Path) -> None:
         suppress(FileNotFoundError, NotADirectoryError),
     ):
         path.lstat()
-        if path.is_dir():
-            raise BadInput(f"--output {path}: is a folder, must be a file")
         if not _is_run(path):
             raise BadInput(f"--output {path}: is there and is no run, must be a new file or a run to replace")
     inputs.require_writable("--output", path)

@@ -1,11 +1,19 @@
 """What makes the frequencies of a reduced blade doubtful: errors of eq. (2) and of the reduction."""
 
+from typing import Annotated
+
 import pandas as pd
+from pydantic import Field
+
+from bladerub.api.arguments import InputError
+from bladerub.config.quantities import checked_number
+from bladerub.settings.units import Unit
 
 MODES = 6  # that the reduced model must follow, as the paper's does with its η
 EQ2_ERROR = 0.01
 EQ2_FAR_OFF = 0.1  # no blade of metal bends so much by its rotation
 REDUCED_ERROR = 0.02
+NOMINAL_SPEED = Annotated[float, Unit("1/min"), Field(gt=0, le=1e6)]  # as that of `Figures`
 
 
 def errors_by_mode(table: pd.DataFrame) -> pd.DataFrame:
@@ -24,11 +32,22 @@ def percent(error: float) -> str:
     return f"{float(f'{100 * error:.2g}'):g}"
 
 
-def doubts(table: pd.DataFrame, nominal_speed: float | None = None) -> list[str]:
+def _in_rpm(nominal_speed: float | str) -> float:
+    """Return a nominal speed in 1/min; it is checked as that of a config is."""
+    try:
+        return checked_number("figures.nominal_speed", nominal_speed, NOMINAL_SPEED, lambda _: 1.0)
+    except ValueError as error:
+        raise InputError("nominal_speed", nominal_speed, str(error)) from None
+
+
+def doubts(table: pd.DataFrame, nominal_speed: float | str | None = None) -> list[str]:
     """List the doubts of an accuracy table, as `bladerub.blade.accuracy.doubts`.
 
-    At the speeds of its fit eq. (2) is exact: a table of these alone tells nothing of it.
+    At the speeds of its fit eq. (2) is exact: a table of these alone tells nothing of it. Raises `InputError`
+    for a nominal speed that is none.
     """
+    if nominal_speed is not None:
+        nominal_speed = _in_rpm(nominal_speed)
     lines = []
     eq2, reduced = errors_by_mode(table)[:MODES].max()
     fastest, f1_hz = table.f_omega.max(), table.f_fe.iloc[0]

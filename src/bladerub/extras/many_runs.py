@@ -1,11 +1,11 @@
 """Many runs of a coating in Python, simulated at once."""
 
-from bladerub.api.arguments import InputError
 from bladerub.api.blade import Blade
 from bladerub.api.display import bar, step
 from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run
 from bladerub.contact.setup import compile_kernel
+from bladerub.extras.bounds import whole_number
 from bladerub.study.job import compute_all
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import row_of
@@ -15,8 +15,7 @@ def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
 ) -> list[Run]:
     """Simulate `runs` of a coating, `jobs` at once, without histories; others as of `simulate`."""
-    if not isinstance(jobs, int) or jobs < 1:
-        raise InputError("jobs", jobs, "must be at least 1")
+    jobs = whole_number("jobs", jobs)
     with step("compiling the time loop", progress):
         compile_kernel(runs[0].spec.turns, blade.reduced.n_interface, runs[0].spec.coating.element_law)
     runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade

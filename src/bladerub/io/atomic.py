@@ -26,7 +26,7 @@ def writing(path: str | Path, mode: str = "w") -> Iterator[IO]:
     `OSError` whose ``filename`` is `path` if it cannot be written.
     """
     path = Path(path)
-    temporary = path.with_name(f".{path.name}.{_HOST}.{os.getpid()}.tmp")
+    temporary = path.parent / f".{path.name}.{_HOST}.{os.getpid()}.tmp"
     text = {} if "b" in mode else {"encoding": "utf-8", "newline": ""}
     try:
         with suppress(FileExistsError):  # a file, which opening reports

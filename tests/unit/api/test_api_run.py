@@ -20,6 +20,13 @@ def test_progress_and_each_count_the_revolutions_and_a_speed_of_no_such_blade_is
         with pytest.raises(br.InputError) as caught:
             br.simulate(blade, refused)
         assert caught.value.name == "f_omega"
+    for n_modes in (0, -1, 2.5, 10**6):
+        with pytest.raises(br.InputError, match="n_modes = "):
+            blade.frequencies(0.1, n_modes)
+    with pytest.raises(br.InputError, match="row = 5"):
+        br.simulate(blade, asked, row=5)
+    with pytest.raises(br.InputError, match="config = "):
+        br.simulate(blade, asked, follow=False).summary(study)
 
 
 def test_growing_run_is_followed_further(study, blade):

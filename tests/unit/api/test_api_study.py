@@ -17,6 +17,9 @@ def test_bad_argument_is_named_with_value_and_what_is_right(study):
             study.run(given.pop("casing"), **given)
         assert caught.value.name == name
         assert str(caught.value) == f"{name} = {caught.value.value}: {caught.value.right}"
+    for settings in (None, 5, [1]):
+        with pytest.raises(br.InputError, match="settings = "):
+            br.Study.from_settings(settings)
 
 
 def test_a_wrong_value_is_named_with_file_line_and_key_and_a_replaced_one_leaves_the_study_as_it_was(

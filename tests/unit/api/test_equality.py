@@ -77,6 +77,11 @@ def test_maps_and_ensembles_are_written_whole(study, blade, sweep, planned, ense
         br.read_ensemble(tmp_path / "ensemble.h5", study.run("2nd", E=2, K=0.5, f_omega=0.19))
     with pytest.raises(br.InputError, match="must be that of own"):
         br.simulate_ensemble(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), own=ensemble.runs[0])
+    damped = study.replace("contact.damping_ratio", 0.02).run("2nd", E=2, K=0.5, f_omega=0.2)
+    with pytest.raises(br.InputError, match="must be of the study of"):
+        br.read_ensemble(tmp_path / "ensemble.h5", damped)
+    with pytest.raises(br.InputError, match="must be of the same blade, study"):
+        br.simulate_ensemble(blade, damped, own=ensemble.runs[0])
     *members, finer = (
         replace(sweep.coating, wear_node=None, lobes=sweep.coating.lobes + n) for n in range(3)
     )

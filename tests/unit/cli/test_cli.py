@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import bladerub.command
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
 from bladerub.extras.ensembles import interface
@@ -171,3 +172,12 @@ def test_every_text_can_be_printed_in_any_locale(monkeypatch):
     monkeypatch.setattr("bladerub.extras.status.command.status", lambda options: print(text))
     assert main(["status"]) == 0
     assert stream.buffer.getvalue() == f"{text}\n".encode("utf-8", "surrogateescape")
+
+
+def test_interruption_while_it_is_imported_leaves_no_traceback(monkeypatch, capsys):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("bladerub.cli.main", interrupted)
+    assert bladerub.command.main() == 130
+    assert capsys.readouterr() == ("", "bladerub: interrupted\n")

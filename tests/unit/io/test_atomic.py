@@ -35,6 +35,15 @@ def test_an_error_leaves_the_old_file_and_nothing_else(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize("folder", [".", "", "folder"])
+def test_a_folder_in_the_place_of_the_file_is_named(folder, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(OSError, match=f"'{folder or '.'}'"), atomic.writing(folder) as stream:
+        stream.write("new")
+    assert [path.name for path in tmp_path.iterdir()] == ["folder"]
+
+
 def test_a_kill_leaves_the_old_file_and_a_temporary_one_that_is_swept(tmp_path, python_at_work):
     path = tmp_path / "file"
     path.write_text("old")

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
+from bladerub.extras.bounds import require
 from bladerub.io.errors import BadInput
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
@@ -56,7 +57,7 @@ def benchmark(options: argparse.Namespace) -> None:
     from bladerub.settings.coatings import RigidCoating
 
     config = inputs.read_config(options)
-    inputs.require(options, rounds=(1, 1000), cores=(1, 1_000_000))
+    require(options, rounds=(1, 1000), cores=(1, 1_000_000))
     if all(isinstance(entry, RigidCoating) for entry in config.coatings):
         raise BadInput("coatings: must have an abradable one, as contact with it is what is measured")
     for n in options.nodes:
@@ -73,6 +74,7 @@ def benchmark(options: argparse.Namespace) -> None:
         from bladerub.extras.benchmark import record
 
         record.recorded(options.table)  # another table is refused before anything takes time
+        inputs.require_writable("--table", options.table)
     stored_blade, config = inputs.read_blade(options, config)
     blade = stored_blade.reduced
 
@@ -95,7 +97,7 @@ def benchmark(options: argparse.Namespace) -> None:
 
 
 def _on_gpu(options: argparse.Namespace, config: "Config") -> None:
-    inputs.require(options, gpu=(1, 1_000_000))
+    require(options, gpu=(1, 1_000_000))
     if options.nodes or options.stress:
         raise BadInput("--gpu: goes with neither --nodes nor --stress")
 
@@ -105,6 +107,7 @@ def _on_gpu(options: argparse.Namespace, config: "Config") -> None:
 
     if options.table:
         record.recorded(options.table, gpu.COLUMNS)  # another table is refused before anything takes time
+        inputs.require_writable("--table", options.table)
     with inputs.refused(BadInput):
         name = device.describe()
     blade, config = inputs.read_blade(options, config)

@@ -12,17 +12,21 @@ from bladerub.api.blade import Blade
 from bladerub.api.display import Shown
 from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run, run_of, runs_of
+from bladerub.extras.bounds import whole_number
 from bladerub.extras.ensembles.bands import band
 from bladerub.extras.ensembles.ensemble import starts
 from bladerub.extras.many_runs import solve_all
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
-from bladerub.io.provenance import provenance
+from bladerub.io.provenance import PREFIX, config_digest, provenance
 from bladerub.study.grid import speed_name
+from bladerub.study.plan import planned_run
+from bladerub.study.solver import row_of
 from bladerub.study.store import StoredRun, read_runs, write_runs
 from bladerub.study.summary import spectral_peak
 
 _START = "initial_displacement"  # attribute of each run in the file of an ensemble, m
+_CONFIG = f"{PREFIX}config_sha256"
 _LENGTHS = ["peak_amplitude", "spectral_peak", "max_wear"]
 _BANDED = (*_LENGTHS, "lobes", "wear_harmonic", "growth_per_revolution")
 
@@ -161,11 +165,10 @@ def simulate_ensemble(
     >>> ensemble.runs[1].attributes["run_key"] == ensemble.runs[0].attributes["run_key"]
     False
     """
-    if members < 1:
-        raise InputError("members", members, "must be at least 1")
+    members = whole_number("members", members)
     blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     if own is not None:
-        _check(run, own, "own")
+        _check_own(blade, run, own)
     start = np.append(0.0, starts(run.config.plugged("ensemble"), run.case, run.f_omega, members))
     drawn = [
         replace(run, spec=replace(run.spec, initial_displacement=displacement))
@@ -208,7 +211,20 @@ def read_ensemble(path: str | Path, run: StudyRun) -> Ensemble:
     start = np.array([stored[_prefix(number)].attributes.pop(_START) for number in numbers])
     ensemble = Ensemble(run, start, tuple(run_of(stored, _prefix(number)) for number in numbers))
     _check(run, ensemble.runs[0], path)
+    if stored[""].attributes.get(_CONFIG) != config_digest(run.config.plain()):
+        raise InputError("run", run.name, f"must be of the study of {path}, whose config is another one")
     return ensemble
+
+
+def _check_own(blade: Blade, run: StudyRun, own: Run) -> None:
+    """Refuse an `own` that is no outcome of this `run` of the `blade`, with or without its history."""
+    if not isinstance(own, Run):
+        raise InputError("own", own, "must be a Run")
+    _check(run, own, "own")
+    config, spec = run.config, run.of_length(blade.length).spec
+    planned = (planned_run(config, spec, "", history, row_of(config)) for history in (True, False))
+    if own.attributes["run_key"] not in {of_run.key(blade.digest) for of_run in planned}:
+        raise InputError("own", run.name, "must be of the same blade, study and solver as the ensemble")
 
 
 def _check(run: StudyRun, first: Run, origin: str | Path) -> None:

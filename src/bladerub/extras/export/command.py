@@ -9,6 +9,7 @@ import numpy as np
 from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
+from bladerub.extras.bounds import require
 from bladerub.extras.export import blade_command
 from bladerub.io.errors import BadInput
 
@@ -28,6 +29,7 @@ _MOTIONS = (
     ("--animation", "FILE", "a new GIF: blades, coating and wear over the whole run, seen along the axis"),
 )
 _GOES_WITH = {
+    "samples": ("vtu", "animation"),
     "speeds": ("calculix", "fe_matrices"),
     "matrix_format": ("fe_matrices",),
     "run": ("vtu", "animation"),
@@ -76,14 +78,14 @@ def add_to(commands: Any) -> None:
     text = "of the sections: points of the surface (default), or axial position, radius and angles"
     parser.option("--coordinates", text, choices=blade_command.COORDINATES)
     text = "instants in the revolution or the animation, at most one for each element (default 100)"
-    parser.option("--samples", text, int, default=100, metavar="N")
+    parser.option("--samples", text, int, metavar="N")
 
 
 def export(options: argparse.Namespace) -> None:
     """Write what the command line asks for, and print what was written."""
     config = inputs.read_config(options)
     for option, forms in _GOES_WITH.items():
-        if getattr(options, option) and not any(getattr(options, form) for form in forms):
+        if getattr(options, option) is not None and not any(getattr(options, form) for form in forms):
             names = " or ".join(f"--{form.replace('_', '-')}" for form in forms)
             raise BadInput(f"--{option.replace('_', '-')}: goes with {names} only")
     for form, suffixes in _SUFFIXES.items():
@@ -179,7 +181,9 @@ def _run_of_file(
     options: argparse.Namespace, config: "Config", form: str
 ) -> "tuple[StoredRun, PlannedRun, Blade, Config]":
     """Read the run whose motion is written to a new file or folder, plan it again, and read its blade."""
-    inputs.require(options, samples=(1, config.contact.elements))
+    if options.samples is None:
+        options.samples = 100
+    require(options, samples=(1, config.contact.elements))
     target = getattr(options, form)
     if target.exists():
         kind = "folder" if form == "vtu" else "file"

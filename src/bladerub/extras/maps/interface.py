@@ -3,8 +3,9 @@
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
+from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -111,8 +112,17 @@ class Map(Shown):
         """Draw the spectra over the speed (Figs. 7 to 9); `path` and `ax` as `plot_wear`.
 
         `amplitude_range` are the ends of the colour scale, m (default: three decades up to the largest
-        amplitude); `max_frequency` is the right end of the axis, normalised.
+        amplitude); `max_frequency` is the right end of the axis, normalised. Raises `InputError` if either
+        is not possible.
         """
+        if amplitude_range is not None and not (
+            np.shape(amplitude_range) == (2,) and _ascend(*amplitude_range)
+        ):
+            raise InputError(
+                "amplitude_range", amplitude_range, "must be two lengths above 0, ascending, in m"
+            )
+        if not _ascend(max_frequency):
+            raise InputError("max_frequency", max_frequency, "must be a number above 0")
         largest = plots.scales.greatest(self.coating.spectrum_amplitude)
         ends = amplitude_range or (1e-3 * largest, largest)
         return plots.spectrum.spectrum_map(self.coating, ends, max_frequency, self._scales, path=path, ax=ax)
@@ -164,6 +174,12 @@ class Map(Shown):
             "greatest wear": f"{1e3 * self.coating.max_wear.max():.4g} mm",
             "unbounded": f"{np.count_nonzero(self.status != 'completed')}",
         }
+
+
+def _ascend(*numbers: Any) -> bool:
+    """Return whether these are finite numbers above 0, each above the one before it."""
+    are_numbers = all(isinstance(number, int | float | np.number) for number in numbers)
+    return are_numbers and all(low < high for low, high in pairwise([0.0, *numbers, np.inf]))
 
 
 @over("path")

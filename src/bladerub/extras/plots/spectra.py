@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from bladerub.api.arguments import InputError
 from bladerub.api.run import Run
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ def plot_spectra(
 
     Raises
     ------
-    ValueError
+    InputError
         If there is no run.
 
     Examples
@@ -30,6 +31,8 @@ def plot_spectra(
     >>> len(br.plot_spectra([run, stiffer]).axes[0].lines)
     2
     """
+    if not isinstance(runs, Iterable) or not (runs := [*runs]):
+        raise InputError("runs", runs, "must be a list of one Run or more")
     first, *others = runs
     picture = first.plot_spectrum(None if others else path, ax=ax)
     axes = cast("Figure", picture).axes[0] if ax is None else ax

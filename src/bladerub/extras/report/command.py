@@ -39,6 +39,8 @@ def report(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     folder = inputs.study_folder() / config.results
     path = options.output or folder / "report.html"
+    if path.is_dir():
+        raise BadInput(f"--output {path}: is a folder, must be a file")
     inputs.require_writable("--output", path)
 
     from bladerub.extras.report import answers, page, results

@@ -2,8 +2,9 @@
 
 import pandas as pd
 
-from bladerub.api.arguments import over
+from bladerub.api.arguments import InputError, over
 from bladerub.api.blade import Blade
+from bladerub.api.planned import checked_number
 from bladerub.api.study import default_study
 from bladerub.extras.rig.blade import simulate_blade_passes
 from bladerub.extras.rig.passes import simulate_passes
@@ -58,8 +59,14 @@ def simulate_rig(
     >>> bool(elastic.worn_depth[0] < passes.worn_depth[0]), bool(elastic.energy_residual.max() < 1e-3)
     (True, True)
     """
+    if not isinstance(rig, Rig):
+        raise InputError("rig", rig, "must be a Rig")
     if blade is None:
         return simulate_passes(rig)
+    if not isinstance(blade, Blade):
+        raise InputError("blade", blade, "must be a Blade")
+    config = default_study().config
     if damping_ratio is None:
-        damping_ratio = default_study().config.contact.damping_ratio
+        damping_ratio = config.contact.damping_ratio
+    damping_ratio = checked_number(config, "damping_ratio", damping_ratio)
     return simulate_blade_passes(rig, blade.reduced, damping_ratio, disk_turns)

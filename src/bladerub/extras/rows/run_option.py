@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bladerub.cli import inputs
 from bladerub.cli.inputs import quantity
 from bladerub.cli.run_option import RunOption
+from bladerub.extras.bounds import require
 from bladerub.io.errors import BadInput, format_value
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ class RowOption(RunOption):
                 raise BadInput(f"{option}: goes with --blades only")
             if not (math.isfinite(value) and value >= 0):
                 raise BadInput(f"{option}: must be 0 or more")
-        inputs.require(options, blades=(1, int(key_at("rotor.blades").bounds["le"])))
+        require(options, blades=(1, int(key_at("rotor.blades").bounds["le"])))
 
     def arguments(self, options: argparse.Namespace) -> dict[str, Any]:
         """Draw the row."""

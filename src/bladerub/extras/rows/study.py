@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from bladerub.api.arguments import InputError
 from bladerub.blade.model import ReducedBlade
 from bladerub.config.checks import reads
 from bladerub.contact.spec import RunSpec
@@ -109,7 +110,12 @@ def stored(run: StoredRun) -> Row | None:
 
 
 def determinants(row: Row) -> dict[str, Any]:
-    """Return what determines a run of `row` besides what determines one of a single blade."""
+    """Return what determines a run of `row` besides what determines one of a single blade.
+
+    Raises `InputError` for anything but a row.
+    """
+    if not isinstance(row, Row):
+        raise InputError("row", row, "must be a Row")
     return {"row": row, "rows": rows_digest()}
 
 

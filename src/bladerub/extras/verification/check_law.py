@@ -6,6 +6,7 @@ from typing import Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
+from bladerub.extras.bounds import require
 from bladerub.extras.law_options import PARAMETER, law_parameters
 from bladerub.extras.law_reading import law_of
 from bladerub.extras.law_settings import law_entry
@@ -35,7 +36,7 @@ def add_to(commands: Any) -> None:
 def check_law(options: argparse.Namespace) -> int:
     """Check the law that the command line names, and print what is wrong."""
     config = inputs.read_config(options)
-    inputs.require(options, seed=(0, 2**32 - 1))
+    require(options, seed=(0, 2**32 - 1))
     values = law_parameters("--parameter", options.parameter)
 
     from bladerub.extras.verification.element_law import check_law as check

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
+from bladerub.extras.bounds import require
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def add_to(commands: Any) -> None:
 def verify(options: argparse.Namespace) -> None:
     """Verify the runs that the command line asks for, and print the distribution of their errors."""
     config = inputs.read_config(options)
-    inputs.require(options, seed=(0, 2**63), jobs=(1, 1000))
+    require(options, seed=(0, 2**63), jobs=(1, 1000))
     if options.rows and options.peaks:
         raise BadInput(f"--rows = {options.rows}: not with --peaks, which are of single blades")
 
