@@ -141,15 +141,15 @@ JOBS = {
     "histories": Figure(
         "Angle of the elements",
         ["plots.history"],
-        {"manifests": expand(rules.coating.output.manifest, coating=[STRAIGHT.name, TILTED.name])},
+        BLADE | {"manifests": expand(rules.coating.output.manifest, coating=[STRAIGHT.name, TILTED.name])},
         SCALED | {"figures": HISTORIES},
         bool(BOTH),
     ),
     "fig19_wear_polar": Figure(
         "Angle of the elements",
         ["plots.polar"],
-        {"maps": [map_of(STRAIGHT), map_of(TILTED)]},
-        PLAIN | {"speeds": [TILTED_SPEED, STRAIGHT_SPEED, *OWN]},
+        BLADE | {"maps": [map_of(STRAIGHT), map_of(TILTED)]},
+        SCALED | {"speeds": [TILTED_SPEED, STRAIGHT_SPEED, *OWN]},
         in_study(STRAIGHT, TILTED) and {TILTED_SPEED, STRAIGHT_SPEED} <= set(speeds(STUDY)),
     ),
 }

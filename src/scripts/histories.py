@@ -6,6 +6,7 @@ job.log_to(snakemake.log[0])
 
 from bladerub.plots.history import history
 
+scales = outputs.scales(snakemake)
 for name, runs in snakemake.params.figures.items():
-    data, figure = history(runs, snakemake.params.scales["modulus_unit"])
+    data, figure = history(runs, scales)
     outputs.save(snakemake, figure, f"{name}_", data=data)

@@ -80,6 +80,9 @@ class Run(Shown):
     'm'
     >>> list(run.to_pandas().index)
     [1, 2, 3]
+    >>> run.write("run.h5")
+    >>> br.read_run("run.h5") == run
+    True
     >>> figure = run.plot_wear("wear.png")
     >>> figure = run.plot_history("history.png")
     >>> figure = run.plot_spectrum("spectrum.png")
@@ -247,7 +250,7 @@ class Run(Shown):
     @property
     def _title(self) -> str:
         unit = modulus_unit(self.config) if self.config else None
-        return f"{titles.coating(self.case, unit)}, {titles.speed(self.f_omega)}"
+        return f"{titles.coating(self.case, unit)}, {titles.speed(self.f_omega, self.f1_hz)}"
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
         peaks, longer, wear = self.revolution_peak, self.longer, self.wear.max()

@@ -69,6 +69,8 @@ def simulate(
     --------
     >>> import bladerub as br
     >>> run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
+    >>> run.revolutions, run.status
+    (20, 'completed')
     """
     blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     run = run.of_length(blade.length)  # perhaps not the study's own blade

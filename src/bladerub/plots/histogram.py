@@ -36,7 +36,9 @@ class Heights(NamedTuple):
             return cls(1e3 * table, f"$Y_{order}$ (mm)", 2, Normalize(0.0, 1e3 * greatest(table.to_numpy())))
         top = greatest(table.to_numpy())
         norm = Normalize(np.fmin.reduce(table.to_numpy(), axis=None, initial=top) - _ROOM, top)
-        return cls(table, f"rotational frequency $f_{order}$ (normalised)", 3, norm)
+        rpm = (peaks.get("f_peak_rpm", np.nan) / peaks["f_peak"]).mean()
+        unit = f"in units of {rpm:.0f} rpm" if rpm > 0 else "normalised"
+        return cls(table, f"rotational frequency $f_{order}$ ({unit})", 3, norm)
 
 
 @styled

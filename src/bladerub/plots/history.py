@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots import titles
-from bladerub.plots.scales import greatest
+from bladerub.plots.scales import UNKNOWN, Scales, greatest
 from bladerub.plots.style import FIRST, PAGE, SECOND, new_figure, styled
 from bladerub.study.store import read_run
 
@@ -17,8 +17,8 @@ _DRAWN = ("revolution", "radial_displacement")
 
 
 @styled
-def history(paths: Iterable[str | Path], unit: float | None = None) -> tuple[pd.DataFrame, Figure]:
-    """Draw Figs. 17 and 18 from the files of two runs that differ in theta; E = 1 is `unit`, Pa.
+def history(paths: Iterable[str | Path], scales: Scales = UNKNOWN) -> tuple[pd.DataFrame, Figure]:
+    """Draw Figs. 17 and 18 from the files of two runs that differ in theta.
 
     The table is what is drawn: ``theta``, ``revolution`` and ``radial_displacement`` of node 1, m, which is
     NaN after an early end.
@@ -38,8 +38,8 @@ def history(paths: Iterable[str | Path], unit: float | None = None) -> tuple[pd.
         axes.set(ylim=(-limit, limit), ylabel="$u_r$ (mm)", title=f"({letter}) {name}")
         envelope = 1e3 * run.data["revolution_amplitude"]
         below.plot(np.arange(envelope.size) + 0.5, envelope, marker="o", markersize=3, label=name, **look)
-    coating = titles.moduli(about["casing"], about["E"], about["K"], unit)
-    title = f"{coating}, {titles.speed(about['f_omega'])}"
+    coating = titles.moduli(about["casing"], about["E"], about["K"], scales.modulus_unit)
+    title = f"{coating}, {titles.speed(about['f_omega'], scales.f1_hz)}"
     figure.suptitle(title, fontsize=9.5, x=0.01, ha="left")
     below.set_title("(c) half the range of $u_r$ in each revolution")
     below.set(xlim=(0, envelope.size), ylim=(0, limit), xlabel="revolution", ylabel="amplitude (mm)")

@@ -50,10 +50,13 @@ def casing_polar(
 
 
 @style.styled
-def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[pd.DataFrame, Figure]:
+def wear_profiles(
+    maps: Sequence[CoatingMap], speeds: Sequence[float], f1_hz: float | None = None
+) -> tuple[pd.DataFrame, Figure]:
     """Draw Fig. 19 from the maps of two coatings that differ in theta: a panel for each speed, on one scale.
 
-    The table is what is drawn: ``f_omega``, ``theta``, ``angle``, rad, and ``wear``, m.
+    The table is what is drawn: ``f_omega``, ``theta``, ``angle``, rad, and ``wear``, m. The first frequency of
+    the blade, `f1_hz`, gives the speeds in rpm.
     """
     profiles = []
     for f_omega, coating in itertools.product(speeds, maps):
@@ -69,7 +72,7 @@ def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[
         for (theta, rows), look in zip(by_theta, looks, strict=True):
             axes.plot(*closed(rows.angle, 1e3 * rows.wear), label=titles.angle(theta), **look)
         axes.set(rorigin=-0.6 * deepest, rlim=(0, 1.06 * deepest))
-        axes.set_title(titles.panel(index % 26, titles.speed(f_omega)))
+        axes.set_title(titles.panel(index % 26, titles.speed(f_omega, f1_hz)))
         axes.yaxis.set_major_locator(MaxNLocator(nbins=max(2, 6 // len(speeds))))
     figure.legend(
         *axes.get_legend_handles_labels(),

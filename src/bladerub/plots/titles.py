@@ -37,9 +37,9 @@ def coating(case: CoatingCase, unit: float | None = None) -> str:
     return f"{moduli(case.casing, case.E, case.K, unit)}, {tangential}{variant}"
 
 
-def speed(f_omega: float) -> str:
-    """Rotational frequency to three decimals."""
-    return rf"$f_\Omega$ = {f_omega:.3f}"
+def speed(f_omega: float, f1_hz: float | None = None) -> str:
+    """Rotational frequency to three decimals, and in rpm where the blade's first frequency is known."""
+    return rf"$f_\Omega$ = {f_omega:.3f}" + (f" ({60 * f1_hz * f_omega:.0f} rpm)" if f1_hz else "")
 
 
 def panel(index: int, name: str) -> str:
