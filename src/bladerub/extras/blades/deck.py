@@ -64,7 +64,12 @@ def included(path: Path) -> list[str]:
     """List the files that the deck at `path` reads, relative to its folder; raises ValueError as `blocks`."""
     lines = _lines(path, path.parent, (path.resolve(),))
     parameters = [_head(line.text)[1] for line in lines if line.text.startswith("*")]
-    return list(dict.fromkeys(names["INPUT"] for names in parameters if "INPUT" in names))
+    return list(dict.fromkeys(_file_name(names["INPUT"]) for names in parameters if "INPUT" in names))
+
+
+def _file_name(name: str) -> str:
+    """Name of an included file with slashes: decks written on Windows have backslashes."""
+    return name.replace("\\", "/")
 
 
 def _head(text: str) -> tuple[str, dict[str, str]]:
@@ -93,7 +98,7 @@ def _lines(path: Path, folder: Path, chain: tuple[Path, ...]) -> Iterator[Line]:
             line, head = Line(head, f"{prefix}line {count}"), ""
             yield line
             if (name := _head(line.text)[1].get("INPUT")) is not None:
-                inner = folder / name
+                inner = folder / _file_name(name)
                 if not inner.is_file():
                     raise ValueError(
                         f"{line.place}: it includes {name}, which is not in the folder of the deck"

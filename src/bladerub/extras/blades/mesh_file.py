@@ -1,5 +1,6 @@
 """The content of a mesh file: nodes, one kind of quadratic element, node sets."""
 
+import codecs
 import io
 import logging
 import re
@@ -77,6 +78,8 @@ def _read_by_meshio(path: Path) -> meshio.Mesh:
 def _check_ends(path: Path) -> None:
     """Raise ValueError if a file begins as one of another program, or one of Gmsh or VTK is cut off."""
     content, ending = path.read_bytes().strip(), path.suffix.lower()
+    if ending == ".msh" and content.startswith(codecs.BOM_UTF8):
+        raise ValueError("begins with a byte order mark; save it as UTF-8 without one (BOM)")
     text = content[:_LOOKED_THROUGH].decode("utf-8", errors="replace")
     if "\0" in text and ending == ".inp":
         raise ValueError("is not text in UTF-8; save it as such")
@@ -153,9 +156,14 @@ def _read_gmsh(path: str) -> meshio.Mesh:
     names = Counter(re.findall(r'^\s*\d+\s+\d+\s+"(.*)"', head, re.MULTILINE))
     if twice := [name for name, count in names.items() if count > 1]:
         raise ValueError(f"has several physical groups {twice[0]}; each must have a name of its own")
+    if "$PartitionedEntities" in head:
+        raise ValueError("is partitioned; unpartition it in Gmsh, and save it again")
     try:
         return meshio.gmsh.read(path)
     except meshio.ReadError as error:
+        if "parametric" in str(error):
+            reason = "nodes have parameters; save in version 4.1 without Mesh.SaveParametric"
+            raise ValueError(reason) from error
         if str(error):
             raise
         reason = "no mesh of Gmsh, damaged, or binary of another machine: save it as text, Mesh.Binary = 0"

@@ -31,7 +31,6 @@ LEAST_JACOBIAN_RATIO = 0.1
 LARGEST_OFFSET = 0.03  # of an interface node, over the chord
 DENSITIES = (10.0, 25e3)  # kg/m³ of the box around a blade, of which it fills some hundredths or all
 WAVE_SPEEDS = (500.0, 30e3)  # m/s in a material, from plastics to carbon fibres, with room for the estimate
-LEAST_THICKNESS = 0.005  # largest of a section, over its chord
 ASPECTS = (1 / 3, 15.0)  # length over the chord of the tip
 HUB_RATIOS = (0.1, 0.98)  # radius of the root over that of the tip
 LARGEST_TIP_SPEED = 800.0  # m/s; wheels burst
@@ -190,13 +189,6 @@ def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
     """Warn of what no blade is like: a length or an angle is in another unit than the rest."""
     length, chord = figures["length"], figures["tip_chord"]
     root, tip = figures["extents"]["radius"]
-    for section in figures.get("sections", ()):
-        if section["thickness"] < LEAST_THICKNESS * section["chord"]:
-            size = (
-                f"{1e3 * section['thickness']:.2g} mm thick over a chord of {1e3 * section['chord']:.3g} mm"
-            )
-            yield f"section {section['name']} is {size}: are its angles in their unit, rad or deg?"
-            break
     if not ASPECTS[0] <= length / chord <= ASPECTS[1]:
         size = f"{1e3 * length:.3g} mm long with a chord of {1e3 * chord:.3g} mm at the tip"
         yield f"it is {size}: are all lengths in one unit?"

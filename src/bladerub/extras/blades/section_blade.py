@@ -12,6 +12,7 @@ from bladerub.extras.blades.section_table import Section
 from bladerub.extras.blades.settings import Source
 
 WIDEST = 50.0  # largest chord over length: beyond, they are not in the same unit
+THINNEST = 0.005  # least thickness over chord of a section: below, angles are not in their unit
 
 
 class SectionShape:
@@ -44,6 +45,7 @@ def read_profiles(source: Source) -> list[Profile]:
     sections = section_table.read(origin.path(source), frame, source.angle_unit or "rad")
     _check_units(sections, frame)
     profiles = [profile(section, frame.downstream_x) for section in sections]
+    _check_thickness(profiles)
     _check_order(profiles)
     return profiles
 
@@ -59,6 +61,17 @@ def _check_units(sections: list[Section], frame: Frame) -> None:
             raise ValueError(
                 f"section {section.name} (line {section.lines[0]}): its chord of {chord:.4g} m is more than "
                 f"{WIDEST:g} times the length of the blade, {length:.4g} m; all lengths must be in one unit"
+            )
+
+
+def _check_thickness(profiles: list[Profile]) -> None:
+    """Check that no section is a film, which takes hours to reduce."""
+    for section in profiles:
+        if section.thickness < THINNEST * section.chord:
+            raise ValueError(
+                f"section {section.name} is {1e3 * section.thickness:.2g} mm thick over a chord of "
+                f"{1e3 * section.chord:.3g} mm; must be {THINNEST:.1%} of it or more: are angles and lengths "
+                "in their units (blade.source.angle_unit)?"
             )
 
 

@@ -68,11 +68,11 @@ def test_a_deck_is_read_as_abaqus_reads_it_and_an_included_file_is_part_of_the_b
     assert sets(content) == expected | {key: [0, 1, 2, 3] for key in ("Some more", "OfElements")}
     assert content.volume_sets == ["Eall", "_S_S2"]
     main, nodes = tmp_path / "m.inp", tmp_path / "n.inp"
-    main.write_text("*INCLUDE, INPUT=n.inp\n")
+    main.write_text("*INCLUDE, INPUT=.\\n.inp\n")
     nodes.write_text("*NODE\n1, 0, 0, 0\n")
     blade = TWISTED.replaced("source", Source(file=str(main)))
     before = file_source.recipe(blade)
-    assert file_source.files(blade.source) == [str(main), str(nodes)]
+    assert file_source.files(blade.source) == [str(main), f"{tmp_path}/./n.inp"]
     nodes.write_text("*NODE\n1, 0, 0, 1\n")
     assert file_source.recipe(blade) != before
 
@@ -144,6 +144,8 @@ def test_what_is_no_usable_mesh_is_told(tmp_path):
         ("m.inp", TETRAHEDRON + "*INSTANCE, PART=A\n0, 5, 0\n", r"has \*INSTANCE, which moves its part"),
         ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=m.inp\n", "line 8: .* includes itself"),
         ("m.msh", GROUPS.format(line="TIP"), "has several physical groups TIP"),
+        ("m.msh", "\ufeff" + GROUPS.format(line="EDGE"), "byte order mark"),
+        ("m.msh", GROUPS.replace("$Nodes", "$PartitionedEntities\n$Nodes"), "unpartition it"),
     ):
         (tmp_path / name).write_text(text)
         with pytest.raises(ValueError, match=said):

@@ -1,3 +1,5 @@
+from contextlib import nullcontext
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -8,7 +10,7 @@ from bladerub.blade.build import build
 from bladerub.blade.files import made_from
 from bladerub.blade.geometry import lattice
 from bladerub.blade.mesh import hexahedral_mesh
-from bladerub.extras.blades import section_table
+from bladerub.extras.blades import section_blade, section_table
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import import_blade
 from bladerub.extras.blades.section_profile import EDGE_SHARE
@@ -141,6 +143,14 @@ tip, 4, 60, 0, 0,
 """
 SPACES = COMMAS.replace("hub end", "1").replace("tip", "2").replace(" nose", "").replace(", remark", "")
 SPACES = SPACES.replace(",   # the", ",  # the").replace(",\n", "\n").replace(", ", "   ").replace(",", "")
+
+
+def test_angles_in_another_unit_make_a_film_which_is_refused(tmp_path):
+    (tmp_path / "film.csv").write_text(COMMAS.replace("0.02", "0.01"))
+    for unit in ("rad", "deg"):
+        source = Source(file=str(tmp_path / "film.csv"), unit="cm", angle_unit=unit)
+        with pytest.raises(ValueError, match="mm thick over a chord") if unit == "deg" else nullcontext():
+            section_blade.read_profiles(source)
 
 
 @pytest.fixture
