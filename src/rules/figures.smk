@@ -149,7 +149,7 @@ JOBS = {
         "Angle of the elements",
         ["plots.polar"],
         BLADE | {"maps": [map_of(STRAIGHT), map_of(TILTED)]},
-        SCALED | {"speeds": [TILTED_SPEED, STRAIGHT_SPEED, *OWN]},
+        PLAIN | {"speeds": [TILTED_SPEED, STRAIGHT_SPEED, *OWN]},
         in_study(STRAIGHT, TILTED) and {TILTED_SPEED, STRAIGHT_SPEED} <= set(speeds(STUDY)),
     ),
 }

@@ -7,6 +7,6 @@ job.log_to(snakemake.log[0])
 from bladerub.plots.polar import wear_profiles
 from bladerub.study.maps import read_map
 
-maps, f1_hz = map(read_map, snakemake.input.maps), outputs.scales(snakemake).f1_hz
-table, figure = wear_profiles([*maps], snakemake.params.speeds, f1_hz)
+maps = [read_map(path) for path in snakemake.input.maps]
+table, figure = wear_profiles(maps, snakemake.params.speeds, outputs.f1_hz(snakemake))
 outputs.save(snakemake, figure, data=table)

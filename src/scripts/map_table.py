@@ -19,5 +19,5 @@ TABLES = {  # what makes each, its column of speeds, and that of the same in rpm
 config = typed(snakemake.config)
 make, speed, rpm = TABLES[Path(snakemake.output.table).stem]
 table = make(config, map(read_map, snakemake.input.maps))
-units = {"modulus_unit": modulus_unit(config), rpm: outputs.rpm(snakemake, table[speed])}
+units = {"modulus_unit": modulus_unit(config), rpm: 60 * outputs.f1_hz(snakemake) * table[speed]}
 outputs.save(snakemake, table=table.assign(**units))

@@ -80,9 +80,6 @@ class Run(Shown):
     'm'
     >>> list(run.to_pandas().index)
     [1, 2, 3]
-    >>> run.write("run.h5")
-    >>> br.read_run("run.h5") == run
-    True
     >>> figure = run.plot_wear("wear.png")
     >>> figure = run.plot_history("history.png")
     >>> figure = run.plot_spectrum("spectrum.png")

@@ -8,12 +8,19 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import casing, strips
+from bladerub.contact import casing
 from bladerub.contact.kernel import records
 from bladerub.contact.laws import element_parameters, module_of
 from bladerub.contact.modes import Modes, tip_radii
 from bladerub.contact.schemes import Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunSpec
+from bladerub.contact.strips import (
+    element_angle,
+    element_area,
+    first_element,
+    running_clearance,
+    start_position,
+)
 from bladerub.numerics.memory import aligned
 
 SEARCH_RANGE = 4
@@ -41,7 +48,7 @@ def tip_record(blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE) -> record
     _check_reach(curvature_radius, per_metre, spec)
     by_lane = partial(records.by_lane, n_nodes=blade.n_interface)
     tip = records.Tip(
-        start=by_lane(strips.start_position(blade, spec) % 1.0 + seat.ahead),
+        start=by_lane(start_position(blade, spec) % 1.0 + seat.ahead),
         per_metre=by_lane(per_metre),
         radius=by_lane(curvature_radius),
         lever=by_lane(radius),
@@ -81,16 +88,13 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     normal_factor, tangential_factor = force_direction(coating)
     by_lane = partial(records.by_lane, n_nodes=blade.n_interface)
     self_compliance, further = map(by_lane, np.split(_self_compliance(rule, coating), [blade.n_interface]))
-    area = by_lane(strips.element_area(blade, spec))
+    area = by_lane(element_area(blade, spec))
     if coating.is_rigid:
         parameters = np.zeros((len(module_of(coating.element_law).Element._fields), area.size))
     else:
         parameters = element_parameters(coating, area, rule.time_step)
-    clearance, angle = (
-        strips.running_clearance(blade, spec)[:, None],
-        strips.element_angle(coating.n_elements),
-    )
-    gap, first = casing.gap(spec.casing, clearance, angle) - seat.longer, strips.first_element(blade, spec)
+    clearance, angle = running_clearance(blade, spec)[:, None], element_angle(coating.n_elements)
+    gap, first = casing.gap(spec.casing, clearance, angle) - seat.longer, first_element(blade, spec)
     rows = np.array([np.roll(of_node, -shift) for of_node, shift in zip(gap, first, strict=True)])
     unused = np.full((coating.n_elements, area.size - len(rows)), _NEVER)
     stator = records.Stator(

@@ -55,8 +55,8 @@ def wear_profiles(
 ) -> tuple[pd.DataFrame, Figure]:
     """Draw Fig. 19 from the maps of two coatings that differ in theta: a panel for each speed, on one scale.
 
-    The table is what is drawn: ``f_omega``, ``theta``, ``angle``, rad, and ``wear``, m. The first frequency of
-    the blade, `f1_hz`, gives the speeds in rpm.
+    The table is what is drawn: ``f_omega``, ``theta``, ``angle``, rad, and ``wear``, m. Speeds are in rpm as
+    well if the first frequency of the blade, `f1_hz`, is known.
     """
     profiles = []
     for f_omega, coating in itertools.product(speeds, maps):

@@ -44,20 +44,15 @@ def save(
         style.save(figure, *files, snakemake.params["dpi"])
 
 
-def rpm(snakemake: Any, f_omega: "pd.Series") -> "pd.Series":
-    """Turn normalised speeds into revolutions a minute of the input ``blade`` of a job."""
+def f1_hz(snakemake: Any) -> float:
+    """Read the first frequency at rest of the input ``blade`` of a job."""
     from bladerub.io import hdf5  # takes long, and a job opens its log before
 
-    return 60 * hdf5.read_attributes(snakemake.input.blade)["f1_hz"] * f_omega
+    return float(hdf5.read_attributes(snakemake.input.blade)["f1_hz"])
 
 
 def scales(snakemake: Any) -> "Scales":
-    """Tell a figure what its numbers are, from the parameter ``scales`` of a job and its input ``blade``.
-
-    The parameter has all of `Scales` but the first frequency, which is of the blade.
-    """
-    from bladerub.io import hdf5
+    """Tell a figure what its numbers are: the parameter ``scales`` of a job and `f1_hz` of its blade."""
     from bladerub.plots.scales import Scales
 
-    f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
-    return Scales(f1_hz=f1_hz, **snakemake.params.scales)
+    return Scales(f1_hz=f1_hz(snakemake), **snakemake.params.scales)
