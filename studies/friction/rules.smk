@@ -6,6 +6,7 @@ COMPARED = [case.name for case in compared(STUDY)]
 
 rule friction:
     input:
+        blade=rules.blade.output.reduced_model,
         manifests=expand(rules.coating.output.manifest, coating=COMPARED),
         code=files_behind("extras.friction.table", "extras.plots.friction", "study.summary"),
     output:

@@ -24,6 +24,7 @@ def planned_sweep(wildcards):
 
 rule sweeps:
     input:
+        blade=rules.blade.output.reduced_model,
         maps=swept_maps,
         sweeps=expand(SWEEPS, coating=SWEPT, direction=DIRECTIONS, rate=RATES),
         analysing=files_behind("extras.passages.sweeps", "study.peaks"),

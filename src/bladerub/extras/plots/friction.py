@@ -5,6 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from bladerub.plots import style
+from bladerub.plots.scales import UNKNOWN, Scales
 
 NONE = 1e-12
 """Relative difference that is drawn for none on the logarithmic axis."""
@@ -12,10 +13,10 @@ COLOURS = (style.DARK, style.ORANGE, style.BLUE, style.RED, style.GREY, style.VI
 
 
 @style.styled
-def friction(table: pd.DataFrame) -> Figure:
+def friction(table: pd.DataFrame, scales: Scales = UNKNOWN) -> Figure:
     """Draw the difference of the peaks and the slowest sliding over the speed, a colour for each coating.
 
-    `table` is from `bladerub.extras.friction.table.table`.
+    `table` is from `bladerub.extras.friction.table.table`, `scales` the blade.
     """
     figure = style.new_figure(style.PAGE, 0.85 * style.PAGE)
     difference, sliding = figure.subplots(2, 1, sharex=True)
@@ -36,4 +37,5 @@ def friction(table: pd.DataFrame) -> Figure:
     sliding.set_ylabel("slowest sliding\nover that by the rotation")
     sliding.set_ylim(max(-2.0, min(-0.1, 1.1 * table.slowest_sliding.min())), 1.05)
     sliding.set_xlabel(r"rotational frequency $f_\Omega$ (normalised)")
+    scales.add_speeds(sliding, "x")
     return figure

@@ -11,7 +11,7 @@ from bladerub.extras.passages.long_runs import LongRuns
 from bladerub.extras.passages.sweep_grid import DIRECTIONS
 from bladerub.extras.passages.sweeps import SpeedSweep
 from bladerub.plots import titles
-from bladerub.plots.scales import greatest
+from bladerub.plots.scales import UNKNOWN, Scales, greatest
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, RED, new_figure, styled
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
@@ -28,10 +28,13 @@ _ARROWS = {"up": "speed rises →", "down": "← speed falls"}
 
 
 @styled
-def sweeps(swept: Sequence[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]) -> Figure:
+def sweeps(
+    swept: Sequence[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap], scales: Scales = UNKNOWN
+) -> Figure:
     """Draw half the range of the displacement in each revolution over the speed, a row for each coating.
 
-    `maps` has the same coatings at constant speed. Up to four rates have different lines.
+    `maps` has the same coatings at constant speed, `scales` are of the blade. Up to four rates have
+    different lines.
     """
     rates = sorted({sweep.rate for sweep in swept})
     looks = {rate: _RATES[index % len(_RATES)] for index, rate in enumerate(rates)}
@@ -54,6 +57,7 @@ def sweeps(swept: Sequence[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]) 
     panels[0, 0].set_xlim(speeds.min(), speeds.max())
     for axes in panels[-1]:
         axes.set_xlabel(r"rotational frequency $f_\Omega$ (normalised)")
+        scales.add_speeds(axes, "x")
     figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
