@@ -52,7 +52,7 @@ class Growth(NamedTuple):
 class Verdict(NamedTuple):
     """The verdict on one run, never both saturating and divergent; see the definitions 6 to 8 of this module.
 
-    Growth, length and status are of the longest run there is; an unbounded one counts as long as it lasted.
+    Growth, length and status are of the longest run there is; an unbounded one ended in its last revolution.
     """
 
     growth: Growth
@@ -136,7 +136,7 @@ def judge(
         growth=trend,
         saturating=(confirmed or trend.grows) and not divergent,
         divergent=divergent,
-        revolutions=int(np.isfinite(longest).sum()),
+        revolutions=int(np.isfinite(longest).sum()) + (status == "unbounded"),
         status=status,
     )
 

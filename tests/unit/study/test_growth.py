@@ -98,12 +98,13 @@ def test_saturation_levels_off_while_it_bends_and_is_steady_before_or_in_the_lon
 @pytest.mark.parametrize(
     ("amplitude", "status", "longer", "expected"),  # saturating, divergent, revolutions
     [
-        (np.array([0.5, np.nan, np.nan]), "unbounded", None, (False, True, 1)),  # whatever the fit
+        (np.array([0.5, np.nan, np.nan]), "unbounded", None, (False, True, 2)),  # whatever the fit
         (saturation(NUMBER, 8), "completed", None, (True, False, 20)),
         (saturation(NUMBER, 20), "completed", None, (False, True, 20)),
         (saturation(NUMBER, 20), "completed", saturation(LONG, 20), (True, False, 60)),
         (1.03**NUMBER, "completed", 1.03**LONG, (False, True, 60)),
-        (1.03**NUMBER, "completed", np.where(LONG < 42, 1.0, np.nan), (False, True, 41)),
+        (1.03**NUMBER, "completed", np.where(LONG < 42, 1.0, np.nan), (False, True, 42)),
+        (1.03**NUMBER, "completed", np.where(LONG < 60, 1.0, np.nan), (False, True, 60)),
     ],
 )
 def test_the_longer_run_decides_and_leaving_all_bounds_is_divergence(amplitude, status, longer, expected):
