@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 COORDINATES = ("cartesian", "cylindrical")
 FORMS = (
     ("--calculix", "DIR", "a folder for CalculiX decks, one for each speed"),
-    ("--mesh", "FILE", "mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements"),
-    ("--matrices", "FILE", "the reduced blade: .npz or .mat"),
+    ("--mesh", "FILE", "new mesh with node sets: .inp, .msh, or .vtu with modes and centrifugal motion"),
+    ("--matrices", "FILE", "new file of the reduced blade: .npz or .mat"),
     ("--fe-matrices", "DIR", "a new folder for what bladerub import reads: finite element matrices, nodes"),
-    ("--sections", "FILE", "table of sections of a parametric blade: .csv, .txt, .dat"),
+    ("--sections", "FILE", "new table of sections of a parametric blade: .csv, .txt, .dat"),
 )
 """What can be written of the blade: option, name of its value and help."""
 

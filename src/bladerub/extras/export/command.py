@@ -92,6 +92,8 @@ def export(options: argparse.Namespace) -> None:
         file = getattr(options, form)
         if file and file.suffix.lower() not in suffixes:
             raise BadInput(f"--{form} {file}: must end in {', '.join(suffixes)}")
+        if file and file.exists():  # perhaps what somebody drew
+            raise BadInput(f"--{form} {file}: is there already, must be a new file")
     if options.animation:
         figures, text = _animation(options, config)
     elif options.vtu:
@@ -186,8 +188,7 @@ def _run_of_file(
     require(options, samples=(1, config.contact.elements))
     target = getattr(options, form)
     if target.exists():
-        kind = "folder" if form == "vtu" else "file"
-        raise BadInput(f"--{form} {target}: is there already, must be a new {kind}")
+        raise BadInput(f"--{form} {target}: is there already, must be a new folder")
     inputs.require_writable(f"--{form}", target)
 
     from bladerub.extras.export.recording import claimed_run

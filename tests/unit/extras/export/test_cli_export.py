@@ -173,8 +173,9 @@ def test_what_cannot_be_written_is_told(at_home, folder, refusal, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_sections_need_no_blade_and_come_in_two_coordinates(export, tmp_path):
+def test_sections_need_no_blade_and_come_in_two_coordinates(export, refusal, tmp_path):
     assert export("--sections", tmp_path / "blade.csv")["stations"] == 21 * 61
     export("--sections", tmp_path / "blade.txt", "--coordinates", "cylindrical")
     headers = [(tmp_path / name).read_text().splitlines()[1] for name in ("blade.csv", "blade.txt")]
     assert headers == ["section,x1,y1,z1,x2,y2,z2", "section,z,r,theta1,theta2"]
+    assert "is there already" in refusal("export", "--sections", tmp_path / "blade.csv")
