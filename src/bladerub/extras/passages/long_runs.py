@@ -157,6 +157,7 @@ def table(config: Config, coatings: Iterable[LongRuns]) -> pd.DataFrame:
             amplitude, seconds = long.revolution_amplitude[index], long.seconds[index, :revolutions]
             name, verdict = verdict_after(config, amplitude, revolutions)
             finite = np.flatnonzero(np.isfinite(seconds))
+            whole = amplitude[:revolutions][np.isfinite(amplitude[:revolutions])]
             rows.append(
                 asdict(long.case)
                 | run
@@ -164,7 +165,7 @@ def table(config: Config, coatings: Iterable[LongRuns]) -> pd.DataFrame:
                     "revolutions": revolutions,
                     "verdict": name,
                     "growth_per_revolution": verdict.growth.per_revolution,
-                    "late_amplitude": amplitude[finite[-last:]].mean() if finite.size else np.nan,
+                    "late_amplitude": whole[-last:].mean() if whole.size else np.nan,
                     "ms_per_revolution": 1e3 * seconds[finite[-1]] / finite.size if finite.size else np.nan,
                 }
             )

@@ -56,7 +56,8 @@ class SpeedSweep:
     energy_residual: float  # see `bladerub.extras.passages.speed_sweep.SweepResult.residual`
     max_wear: float  # at the end, m
     speed: np.ndarray  # (r,), mean of each revolution in the order of time, normalised
-    revolution_amplitude: np.ndarray  # (r,), half the range of u_r of node 1, m; NaN after an unbounded end
+    revolution_peak: np.ndarray  # (r,), largest |u_r| of node 1, m; NaN after an unbounded end
+    revolution_amplitude: np.ndarray  # (r,), half the range of u_r in each whole revolution, m; NaN likewise
     f_omega: np.ndarray  # (n,), mean speed of each window, ascending, normalised
     C1: np.ndarray  # (n,), first eigenfrequency there, normalised
     spectrum_order: np.ndarray  # (m,)
@@ -151,7 +152,7 @@ def table(
                 "amplitude": swept_peak.amplitude,
                 "f_peak_constant": at_constant.f_omega,
                 "amplitude_constant": at_constant.amplitude,
-                "f_end": np.append(np.nan, sweep.speed[np.isfinite(sweep.revolution_amplitude)])[-1],
+                "f_end": np.append(np.nan, sweep.speed[np.isfinite(sweep.revolution_peak)])[-1],
             }
         )
     table = pd.DataFrame(rows)

@@ -77,7 +77,7 @@ def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws):
             amplitude[20:] = np.nan
         speed, none = speeds if direction == "up" else speeds[::-1], np.empty((0, 3))
         spectra = none[:, 0], none[:, 0], speeds[:3], none
-        return SpeedSweep(case, direction, rate, status, 1e-5, 1e-4, speed, amplitude, *spectra)
+        return SpeedSweep(case, direction, rate, status, 1e-5, 1e-4, speed, amplitude, amplitude, *spectra)
 
     amplitude = np.array([[1e-4, 2e-4], [1e-3, 2e-3], [1e-4, 9e-3]])
     constant = SimpleNamespace(f_omega=np.array([0.2, 0.3, 0.4]), revolution_amplitude=amplitude)
