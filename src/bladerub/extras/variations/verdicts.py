@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from bladerub.io.errors import BadInput
 from bladerub.plots import style
 from bladerub.study.findings.claim import SCORE
 
@@ -19,7 +20,10 @@ def side_by_side(table: pd.DataFrame, by: str) -> pd.DataFrame:
     """Return ``holds`` of each claim (rows) by the values of the column `by` (columns), both in their order.
 
     `table` has the findings of several studies, or of several ways to judge one, which `by` distinguishes.
+    Raises `BadInput` if it has none.
     """
+    if table.empty:
+        raise BadInput("no claim is judged: none is about the coatings and speeds that are varied")
     wide = table.pivot_table(index="id", columns=by, values="holds", aggfunc="first")
     return wide.loc[list(dict.fromkeys(table["id"])), list(dict.fromkeys(table[by]))]
 
