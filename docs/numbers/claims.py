@@ -37,7 +37,8 @@ def changes(
     changed = both["holds"] != both["holds_second"]
     if values:
         numbers = both[["measured", "measured_second"]].apply(pd.to_numeric, errors="coerce")
-        changed |= numbers.diff(axis=1).iloc[:, 1].abs() > _CHANGE * numbers["measured"].abs()
+        smaller = numbers.abs().min(axis=1)  # a run beyond the limit has an infinite growth
+        changed |= numbers.diff(axis=1).iloc[:, 1].abs() > _CHANGE * smaller
     both = both[changed]
     answers = {}
     for heading, study in zip(headings, (first, second), strict=True):

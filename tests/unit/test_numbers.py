@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from docs.numbers import FOLDER, Tables, numbers_of, readme
-from docs.numbers.claims import changed_sentences
+from docs.numbers.claims import changed_sentences, changes
 from docs.numbers.record import VALUES, values
 
 ROOT = Path(__file__).parents[2]
@@ -53,6 +53,15 @@ def test_the_readme_has_the_claims_of_the_tables(tables, tmp_path):
     changed["findings"] = tables["findings"].replace({"holds": {"partly": "no"}})
     readme.update(Path(page), changed)
     assert " 0 hold partly" in Path(page).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_run_that_stays_within_the_limit_in_one_of_two_studies_is_a_change(order):
+    studies = [
+        pd.DataFrame({"id": ["C11a"], "claim": "", "measured": [growth], "unit": "1", "holds": "yes"})
+        for growth in (float("inf"), 0.02)[::order]
+    ]
+    assert "C11a" in changes(*studies, ("first", "second"), values=True)
 
 
 @pytest.fixture

@@ -27,6 +27,7 @@ from bladerub.study.paper import (
     SOFT_HARDENING,
     SOFTEST,
     STIFFENING_FROM,
+    STIFFEST,
     STRAIGHT,
     STRAIGHT_SPEED,
     THETA,
@@ -179,8 +180,11 @@ def _shift(evidence: Evidence, one: CoatingCase, other: CoatingCase, order: int)
 
 
 def _modulus_peaks(evidence: Evidence) -> pd.DataFrame:
-    """Speed and amplitude of the peak of order 4 at every E and K, columns ``E``, ``K``, ``f4``, ``Y4``."""
-    table = evidence.moduli(CASING, THETA, 4, "f_peak").stack().dropna()
+    """Speed and amplitude of the peak of order 4 over K and the paper's range of E.
+
+    The columns are ``E``, ``K``, ``f4`` and ``Y4``.
+    """
+    table = evidence.moduli(CASING, THETA, 4, "f_peak").loc[:, SOFTEST:STIFFEST].stack().dropna()
     peaks = [(E, K, *_peak(evidence, CoatingCase(CASING, E, K, THETA), 4)) for K, E in table.index]
     return pd.DataFrame(peaks, columns=["E", "K", "f4", "Y4"])
 
@@ -196,7 +200,7 @@ def _over_hardening(evidence: Evidence, reduce: Callable[[np.ndarray], float]) -
 def _over_modulus(evidence: Evidence, column: str, reduce: Callable[[np.ndarray], float]) -> float:
     """Find the greatest over the low K of `reduce` of f4 or Y4 over E."""
     peaks = _modulus_peaks(evidence)
-    peaks = peaks[(peaks.K <= SOFT_HARDENING) & (peaks.E >= SOFTEST)]
+    peaks = peaks[peaks.K <= SOFT_HARDENING]
     values = [reduce(group[column].to_numpy()) for _, group in peaks.groupby("K") if len(group) >= 2]
     return float(max(values, default=np.nan))
 

@@ -148,14 +148,18 @@ def stiff_is_rigid(evidence: Evidence) -> Finding:
     left to the first border.
     """
     keys = itertools.product(paper.ORDERS, paper.HARDLY)
-    peaks = {(order, column): _offset(evidence, order, column) for order, column in keys}
-    scaled = {key: offset.abs() / paper.HARDLY[key[1]] for key, offset in peaks.items()}
-    distance = pd.DataFrame(scaled).max(axis=1)
+    peaks = pd.DataFrame({key: _offset(evidence, *key) for key in keys}).dropna()  # coatings with all four
+    peaks = peaks[peaks.index.get_level_values("K") == peaks.index.get_level_values("K").max()].droplevel("K")
+    if peaks.shape[0] < 2 or peaks.index[-1] < paper.STIFFEST:
+        raise NotMeasurable(
+            f"at the highest K no E from {paper.STIFFEST:g} on and another from {_STIFF:g} on"
+        )
+    distance = (peaks.abs() / [paper.HARDLY[column] for _, column in peaks]).max(axis=1)
     stiffest, softer = distance.iloc[-1], distance.iloc[:-1]
     close, nearest = stiffest <= 1, stiffest <= softer.min()
     offsets = [
-        f"Y{order} {offset.iloc[-1]:+.0%}" if column == "amplitude" else f"f{order} {offset.iloc[-1]:+.3f}"
-        for (order, column), offset in peaks.items()
+        f"Y{order} {offset:+.0%}" if column == "amplitude" else f"f{order} {offset:+.3f}"
+        for (order, column), offset in peaks.iloc[-1].items()
     ]
     softer_one = "none softer is nearer" if nearest else f"E = {softer.idxmin():g} is nearer"
     measured = f"{', '.join(offsets)}; {softer_one}"
@@ -165,15 +169,11 @@ def stiff_is_rigid(evidence: Evidence) -> Finding:
 
 
 def _offset(evidence: Evidence, order: int, column: str) -> pd.Series:
-    """Return by what Y_k (relative) or f_k exceeds that of the rigid casing, over the stiff E, ascending."""
-    rigid, stiffest = evidence.peak(paper.RIGID, order, column), paper.STIFFEST
-    stiff = evidence.moduli(paper.CASING, paper.THETA, order, column).iloc[-1].dropna()
-    stiff = stiff[stiff.index >= _STIFF]
-    if stiff.size < 2 or stiff.index[-1] < stiffest:
-        raise NotMeasurable(f"at the highest K no E from {stiffest:g} on and another from {_STIFF:g} on")
-    if column == "amplitude":
-        return ratio(stiff, rigid, paper.RIGID.name) - 1
-    return stiff - rigid
+    """Return by what Y_k (relative) or f_k exceeds that of the rigid casing, over K and the stiff E."""
+    rigid = evidence.peak(paper.RIGID, order, column)
+    table = evidence.moduli(paper.CASING, paper.THETA, order, column)
+    stiff = table.loc[:, table.columns >= _STIFF].stack()
+    return ratio(stiff, rigid, paper.RIGID.name) - 1 if column == "amplitude" else stiff - rigid
 
 
 @claim("C12b", 'below E = 0.11 nothing dangerous happens (section "Local maxima evolution")')
