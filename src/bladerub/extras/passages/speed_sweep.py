@@ -159,6 +159,8 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
 
     vibration = into[:n_new, :n] @ vibration + share_new * (into @ static - static_new)[:n_new]
     state.q[:, :n_new] = _rows(new.rule, vibration, into[:n_new, :n] @ velocity, force)
+    if np.array_equal(old_state.q[2], old_state.q[0]):  # a free flight, whose damping loss is entered
+        state.q[2] = state.q[0]
     back = new.rule.time_step / old.rule.time_step
     state.u[0] = old_state.u[0]
     state.u[1] = old_state.u[0] + back * (old_state.u[1] - old_state.u[0])

@@ -85,6 +85,14 @@ def test_free_motion_is_that_of_the_equation_with_stiffness_in_time(blade, spec,
     assert errors[2] < 0.5 * errors[0]
 
 
+def test_the_damping_of_free_flights_is_entered_once_at_each_change_of_speed(blade, spec, change):
+    away = change(spec, f_omega=0.1, interference=-0.05, revolutions=0, initial_displacement=1e-3)
+    sweep = simulate_sweep(blade, SweepSpec(away, 0.4, 6.0, 1e-4))
+    own = sweep.energy
+    taken = own.kinetic + own.elastic - own.initial + own.damping
+    assert taken == pytest.approx(sweep.work_stiffness, abs=1e-4 * own.damping)
+
+
 def test_the_ledger_closes_though_steps_change_their_angle(blade, spec, change):
     run = change(spec, f_omega=0.15, theta=0.15, revolutions=1, steps_per_element=4, max_time_step=5e-6)
     sweep = SweepSpec(run, 0.3, 20.0, 0.01)
