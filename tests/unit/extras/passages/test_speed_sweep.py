@@ -24,6 +24,8 @@ def test_speed_steps_follow_a_constant_rate(spec, change, start, end):
     speeds = np.array([step.f_omega for step in plan[1:]])
     assert np.diff(speeds) == pytest.approx(np.sign(end - start) * 0.004)
     assert np.mean(speeds) == pytest.approx((start + end) / 2)
+    little = speed_steps(SweepSpec(change(run, revolutions=0), start + 1e-6, 10.0, 0.004), f1_hz=192.0)
+    assert [step[1:] for step in little] == [(0, N)]  # a revolution, though less than an element was swept
     seconds = np.diff([2 * N, *lasts[1:-1]]) / N / (192.0 * speeds[:-1])
     assert seconds == pytest.approx(0.004 / rate, abs=1 / N / 192.0 / 0.1)  # to an element
 
