@@ -224,7 +224,7 @@ def _record(
 
     last, n_elements = plan.spec.revolutions, plan.spec.coating.n_elements
     if run.attributes["status"] == "unbounded":
-        last = int(np.count_nonzero(np.isfinite(run.data["revolution_peak"]))) - 1
+        last = int(np.count_nonzero(np.isfinite(run.data["revolution_amplitude"])))
     if last == 0:
         raise BadInput(
             f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "

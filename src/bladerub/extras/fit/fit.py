@@ -2,9 +2,10 @@
 
 The curves are those of `bladerub.contact.law`: slope E, then ``E K / (E + K)`` from the elastic limit on.
 Where they are at several rates, the elastic limit of a curve is ``σ_Y + H r^m``: the overstress of Perzyna's
-and Norton's laws in steady flow at a constant strain rate r (Lemaitre and Chaboche, Mechanics of Solid
-Materials, 1990, ch. 6). H is the overstress at 1/s, and with m = 1 the viscosity in Pa s. The strain in which
-the overstress builds up after the elastic limit, about ``H r^m / (E + K)``, is neglected.
+and Norton's laws in steady flow (Lemaitre and Chaboche, Mechanics of Solid Materials, 1990, ch. 6). The
+plastic strain then grows at the rate ``r = E / (E + K)`` times that of the test. H is the overstress at 1/s,
+and with m = 1 the viscosity in Pa s. The strain in which the overstress builds up after the elastic limit,
+about ``H r^m / (E + K)``, is neglected.
 """
 
 from collections.abc import Sequence
@@ -99,7 +100,7 @@ def stress(parameters: Sequence[float], curve: Curve) -> np.ndarray:
     E, K, limit, *rate_part = parameters
     if rate_part:
         overstress, exponent = rate_part
-        limit += overstress * curve.rate**exponent
+        limit += overstress * (curve.rate * E / (E + K)) ** exponent
     coating = replace(_UNIT, E=E, K=K, yield_stress=limit)
     _, wear = law.load(coating, np.maximum.accumulate(curve.strain), np.zeros(1))
     return law.load(coating, curve.strain, wear)[0]

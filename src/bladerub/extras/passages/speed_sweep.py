@@ -57,7 +57,8 @@ class SpeedStep(NamedTuple):
 def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
     """Divide a sweep of a blade of first frequency `f1_hz` (Hz) into steps of constant speed.
 
-    The speed of each is the mean over it. The last is prolonged to the end of its revolution.
+    The speed of each is the mean over it. The last is prolonged to the end of its revolution, the first
+    one at least.
     """
     n_elements, start = spec.run.coating.n_elements, spec.run.f_omega
     n_steps_of_speed = max(1, int(np.ceil(abs(spec.f_end - start) / spec.speed_step - 1e-9)))
@@ -66,7 +67,7 @@ def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
     duration = abs(spec.f_end - start) / n_steps_of_speed / spec.rate
     revolutions = spec.run.revolutions + np.concatenate([[0.0], np.cumsum(speeds * f1_hz * duration)])
     cuts = np.append(0, np.rint(revolutions * n_elements).astype(int))
-    cuts[-1] += -cuts[-1] % n_elements
+    cuts[-1] = max(1, -(-cuts[-1] // n_elements)) * n_elements
     planned = map(SpeedStep, [start, *speeds.tolist()], cuts[:-1].tolist(), cuts[1:].tolist())
     return [step for step in planned if step.last > step.first]
 
@@ -159,6 +160,8 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
 
     vibration = into[:n_new, :n] @ vibration + share_new * (into @ static - static_new)[:n_new]
     state.q[:, :n_new] = _rows(new.rule, vibration, into[:n_new, :n] @ velocity, force)
+    if np.array_equal(old_state.q[2], old_state.q[0]):  # a free flight, whose damping loss is entered
+        state.q[2] = state.q[0]
     back = new.rule.time_step / old.rule.time_step
     state.u[0] = old_state.u[0]
     state.u[1] = old_state.u[0] + back * (old_state.u[1] - old_state.u[0])

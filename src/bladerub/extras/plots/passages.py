@@ -71,12 +71,12 @@ def _draw_sweep(axes: Axes, sweep: SpeedSweep, look: dict) -> None:
 
 
 def _limit(axes: Axes, case: CoatingCase, swept: Sequence[SpeedSweep], constant: CoatingMap) -> None:
-    """Fit the axis to all revolutions but the last two of an unbounded run."""
+    """Fit the axis to all revolutions but the last whole one of an unbounded run."""
     bounded = [constant.revolution_amplitude[constant.status == "completed", -1]]
     for sweep in swept:
         if sweep.case == case:
             amplitude = sweep.revolution_amplitude[np.isfinite(sweep.revolution_amplitude)]
-            bounded.append(amplitude[:-2] if sweep.status == "unbounded" else amplitude)
+            bounded.append(amplitude[:-1] if sweep.status == "unbounded" else amplitude)
     axes.set_ylim(0, 1.08e3 * greatest(*bounded))
 
 

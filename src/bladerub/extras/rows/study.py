@@ -19,6 +19,7 @@ from bladerub.settings.analysis import Analysis
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, coating_cases
 from bladerub.study.store import StoredRun, stored_run
+from bladerub.study.summary import displacement_peak
 
 DATASETS = {
     "row": ((), "1", "the row of blades, as bladerub.Row.from_json reads it"),
@@ -144,9 +145,9 @@ def compute(
     from bladerub.extras.rows.row import simulate_row  # loads the compiler: who plans runs alone does without
 
     result = simulate_row(blade, spec, row, progress)
-    last = slice(-analysis.spectrum_revolutions, None)
+    last = analysis.spectrum_revolutions
     amplitude, peak = (  # NaN where a blade has none
-        np.fmax.reduce([getattr(blade, name)[last] for blade in result.blades], axis=1)
+        np.array([displacement_peak(getattr(blade, name), last) for blade in result.blades])
         for name in ("revolution_amplitude", "revolution_peak")
     )
     unbounded = np.isin(np.arange(1, len(row.blades) + 1), result.unbounded)

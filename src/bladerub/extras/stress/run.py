@@ -154,7 +154,7 @@ class StressSolver(Solver):
 
 def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress | None:
     """Find the stress of a sampled run, as `StressSolver` does; `stress` is that of its amplitudes."""
-    revolutions = np.isfinite(run.result.revolution_peak).sum() - (run.result.status == "unbounded")
+    revolutions = np.isfinite(run.result.revolution_amplitude).sum()
     if not revolutions:  # is complete
         return None
     begin, end = np.searchsorted(run.time, (max(revolutions - last, 0), revolutions), side="right")

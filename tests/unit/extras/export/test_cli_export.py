@@ -110,6 +110,8 @@ def changed(run, path, **attributes):
 
 def test_a_run_that_left_all_bounds_is_shown_until_then(words, figures, tmp_path, folder):
     run = changed(folder / "run.h5", tmp_path / "run.h5", status="unbounded")
+    with edited(run) as file:
+        file["revolution_amplitude"][-1] = np.nan
     assert figures(*words, tmp_path / "motion", "--samples", "1", "--run", run)["revolution"] == 1
 
 

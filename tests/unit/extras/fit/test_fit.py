@@ -71,6 +71,18 @@ def test_parameters_come_back_from_exact_curves_and_elastic_ones_give_no_hardeni
     assert (elastic["K"].determined, elastic["K"].standard_error) == (False, None)
 
 
+def test_the_overstress_at_two_rates_is_the_viscosity_of_the_viscoplastic_law():
+    E, K, limit, viscosity = 900e6, 450e6, 9e6, 2e3
+    strain, decay = np.linspace(0.0005, 0.04, 80), (E + K) / viscosity
+
+    def flowing(rate):  # the exact solution at a constant rate
+        time = np.maximum(strain - limit / E, 0) / rate
+        plastic = E * rate / (E + K) * (time - (1 - np.exp(-decay * time)) / decay)
+        return Curve(rate, strain, E * (strain - plastic))
+
+    assert fit([flowing(1e-3), flowing(1e3)])["overstress"].value == pytest.approx(viscosity, rel=0.03)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("rates", [[0.0], pytest.param([1e-3, 0.1, 1, 100], marks=pytest.mark.nightly)])
 def test_intervals_cover_the_truth_as_often_as_they_say(rates):

@@ -24,6 +24,8 @@ def test_speed_steps_follow_a_constant_rate(spec, change, start, end):
     speeds = np.array([step.f_omega for step in plan[1:]])
     assert np.diff(speeds) == pytest.approx(np.sign(end - start) * 0.004)
     assert np.mean(speeds) == pytest.approx((start + end) / 2)
+    little = speed_steps(SweepSpec(change(run, revolutions=0), start + 1e-6, 10.0, 0.004), f1_hz=192.0)
+    assert [step[1:] for step in little] == [(0, N)]  # a revolution, though less than an element was swept
     seconds = np.diff([2 * N, *lasts[1:-1]]) / N / (192.0 * speeds[:-1])
     assert seconds == pytest.approx(0.004 / rate, abs=1 / N / 192.0 / 0.1)  # to an element
 
@@ -83,6 +85,14 @@ def test_free_motion_is_that_of_the_equation_with_stiffness_in_time(blade, spec,
         errors.append(np.abs(np.interp(x, turned, tip) - sweep.radial_displacement)[within].max() / 1e-3)
     assert errors[2] < 0.01
     assert errors[2] < 0.5 * errors[0]
+
+
+def test_the_damping_of_free_flights_is_entered_once_at_each_change_of_speed(blade, spec, change):
+    away = change(spec, f_omega=0.1, interference=-0.05, revolutions=0, initial_displacement=1e-3)
+    sweep = simulate_sweep(blade, SweepSpec(away, 0.4, 6.0, 1e-4))
+    own = sweep.energy
+    taken = own.kinetic + own.elastic - own.initial + own.damping
+    assert taken == pytest.approx(sweep.work_stiffness, abs=1e-4 * own.damping)
 
 
 def test_the_ledger_closes_though_steps_change_their_angle(blade, spec, change):

@@ -176,6 +176,32 @@ def test_a_run_ends_for_all_when_one_leaves_the_limit_and_is_the_same_until_then
         np.testing.assert_allclose(ended.radial_displacement, expected, rtol=0, atol=1e-9 * peaks.max())
 
 
+def test_the_amplitudes_of_a_row_that_ends_early_are_those_of_its_last_whole_revolutions(
+    blade, spec, config, case, change, monkeypatch
+):
+    row, spec = Row.even(2), change(spec, revolutions=4)
+    whole = simulate_row(blade, spec, row)
+    made = np.arange(4 * spec.coating.n_elements) < 2.5 * spec.coating.n_elements
+    ended = (
+        dataclasses.replace(
+            each,
+            status="unbounded",
+            radial_displacement=np.where(made, each.radial_displacement, np.nan),
+            revolution_peak=np.append(each.revolution_peak[:3], np.nan),
+            revolution_amplitude=np.append(each.revolution_amplitude[:2], [np.nan, np.nan]),
+        )
+        for each in whole.blades
+    )
+    early = dataclasses.replace(whole, status="unbounded", blades=tuple(ended), unbounded=(1, 2))
+    monkeypatch.setattr("bladerub.extras.rows.row.simulate_row", lambda *arguments: early)
+    analysis = config.analysis.model_copy(update={"spectrum_revolutions": 1})  # of four that were planned
+    stored = study.compute(row, blade, case, spec, "", analysis, False).data
+    expected = np.transpose(
+        [(each.revolution_amplitude[1], each.revolution_peak[2]) for each in whole.blades]
+    )
+    np.testing.assert_array_equal([stored["blade_amplitude"], stored["blade_peak"]], expected)
+
+
 def test_a_disk_that_the_loop_cannot_have_is_refused(blade, spec):
     for stiffness, message in (
         ([[1.0, 0.1], [0.2, 1.0]], "mode 1: must be a symmetric matrix"),

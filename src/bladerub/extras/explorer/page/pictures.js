@@ -354,6 +354,7 @@ function growth(shown, choice) {
       });
     }
   }
+  if (!amplitudes.length) amplitudes.push(1); // of a run that completed no revolution
   return {
     data,
     layout: layout({
