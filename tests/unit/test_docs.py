@@ -8,6 +8,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from bladerub import plugins
 from bladerub.cli import parser
 from bladerub.config.read import load
 from bladerub.io import tables
@@ -170,7 +171,7 @@ def test_a_link_leads_to_the_page_of_the_site(page, site, text, followed):
 def taken(tmp_path, name, table):
     source, target = tmp_path / f"{name}.csv", tmp_path / "taken" / f"{name}.csv"
     target.parent.mkdir(exist_ok=True)
-    tables.write(source, table, ORIGIN)
+    tables.write(source, table, ORIGIN, columns_files=plugins.files("columns.csv"))
     snapshots.take(source, target)
     assert tables.read_origin(target) == ORIGIN
     return tables.read(target)

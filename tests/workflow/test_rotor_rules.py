@@ -36,6 +36,7 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     assert len(table) == 5
     assert len(draws) == table.rows.sum() == 2 * 3 + 1 + 2 + 1
     assert (draws.energy_residual < 1e-3).all()
+    assert draws.divergent.dtype == bool
     alone = table[(table.blades == 1) & (table.frequency_scatter == 0)]
     assert alone.amplification_median.tolist() == [1.0, 1.0]
     drift = tables.read(copied_study.results / "tables" / "rotor_drift.csv")

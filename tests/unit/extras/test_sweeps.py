@@ -1,3 +1,4 @@
+import h5py
 import numpy as np
 import pytest
 
@@ -36,6 +37,8 @@ def make(config, blade, monkeypatch, angle, tmp_path):
     def make(direction, rate):
         path = tmp_path / f"{direction}_{rate}.h5"
         sweeps.make(config, CASE, blade, direction, rate, path)
+        with h5py.File(path) as file:
+            assert file["node"][:].tolist() == list(range(1, 9))  # as in every other file
         return sweeps.read(path)
 
     return make

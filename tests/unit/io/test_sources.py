@@ -51,7 +51,12 @@ def package(tmp_path, monkeypatch):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("a = 1\n")
     monkeypatch.setattr(sources, "PACKAGE", tmp_path)
-    yield tmp_path
+    return tmp_path
+
+
+@pytest.fixture(autouse=True)
+def _no_digest_is_left():
+    yield
     sources.digest_of.cache_clear()
 
 

@@ -30,7 +30,7 @@ MEASURES = {
 """What is kept of each run, with unit and meaning; NaN at speeds that were not run."""
 
 _DATASETS = {
-    "f_omega": ("1", "rotational frequency over that of the blade at rest"),
+    "f_omega": ("1", "rotational frequency over the first frequency at rest"),
     "spectrum_order": ("1", "engine order"),
     "C1": ("1", "first eigenfrequency at speed over that at rest"),
     "spectrum_amplitude": (

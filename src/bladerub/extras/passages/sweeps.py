@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.model import ReducedBlade
+from bladerub.blade.model import ReducedBlade, interface_node
 from bladerub.extras.passages.speed_sweep import SweepResult, simulate_sweep
 from bladerub.extras.passages.sweep_grid import sweep_spec
 from bladerub.io import hdf5
@@ -29,7 +29,7 @@ COLUMNS = [
 ]
 """Columns of ``sweeps.csv``."""
 
-_RADIAL = "the radial displacement of node 1"
+_RADIAL = "radial displacement of node 1"
 _DATASETS = {
     "angle": (("angle",), "rad", "casing angle of the element centres"),
     "wear": (("node", "angle"), "m", "worn depth under each node at the end"),
@@ -40,7 +40,7 @@ _DATASETS = {
     "f_omega": (("window",), "1", "mean rotational frequency of {window} revolutions, normalised"),
     "C1": (("window",), "1", "first eigenfrequency at speed over that at rest"),
     "spectrum_order": (("spectrum_order",), "1", "engine order"),
-    "spectrum_amplitude": (("window", "spectrum_order"), "m", f"amplitude of {_RADIAL}"),
+    "spectrum_amplitude": (("window", "spectrum_order"), "m", f"amplitude of the {_RADIAL}"),
 }
 _DESCRIBED = ("direction", "rate", "status", "energy_residual")  # attributes of the file
 
@@ -91,7 +91,7 @@ def make(
     variables = {
         name: Variable(dims, values[name], units, long_name.format(window=window))
         for name, (dims, units, long_name) in _DATASETS.items()
-    }
+    } | {"node": interface_node(len(result.wear))}
     attributes = {
         **asdict(case),
         "direction": direction,

@@ -52,7 +52,7 @@ def draws(plan: Plan, folder: str | Path, analysis: Analysis) -> pd.DataFrame:
     return pd.DataFrame(rows)[DRAWS]
 
 
-def _measure(path: Path, analysis: Analysis) -> dict[str, float]:
+def _measure(path: Path, analysis: Analysis) -> dict[str, Any]:
     run = read_run(path, {"angle", "wear", "revolution_amplitude", *OF_BLADES})
     data, share = run.data, run.data["blade_worn_volume"]
     share = share / share.sum() if share.sum() else np.full(share.size, np.nan)
@@ -72,7 +72,7 @@ def _measure(path: Path, analysis: Analysis) -> dict[str, float]:
         "wear_harmonic": harmonic,
         "wear_harmonic_share": harmonic_share,
         "lobes": lobes(data["angle"], data["wear"], analysis.lobe_prominence),
-        "divergent": int(grown.divergent),
+        "divergent": bool(grown.divergent),
         "energy_residual": float(run.attributes["energy_residual"]),
     }
 

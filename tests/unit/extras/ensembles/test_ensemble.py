@@ -1,6 +1,7 @@
 import itertools
 from dataclasses import replace
 
+import h5py
 import numpy as np
 import pandas as pd
 import pytest
@@ -93,6 +94,8 @@ def test_members_are_the_study_s_run_from_other_starts_each_is_repeated_finer_an
     finer = [spec for spec in made.specs if spec.tolerance != 0.01]
     assert [spec.f_omega for spec in finer] == [0.15, 0.2, 0.25, 0.3, 0.35]
     assert finer[0] == replace(run_spec(study, CASE, 0.15), tolerance=0.0025)
+    with h5py.File(made.path) as file:  # they count from 1, as in maps and in the names of runs
+        assert [file[name][:2].tolist() for name in ("member", "revolution_number")] == [[1, 2], [1, 2]]
     read = ensemble.read(made.path)
     np.testing.assert_allclose(read.refined.spectrum_amplitude[:, 60], 1e-3, rtol=1e-3)
     starts = [ensemble.starts(study.ensemble, CASE, f, 2) for f in (0.15, 0.2, 0.25, 0.3, 0.35)]
