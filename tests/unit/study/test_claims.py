@@ -28,3 +28,9 @@ def test_verdicts_at_their_borders(judge, sign):
     for value, expected in ((1.0, "yes"), (1.5, "partly"), (2.0, "partly"), (2.25, "no")):
         assert judge(sign * value, sign * 1.0, sign * 2.0) == (expected, 1.0 - value)
     assert judge(float("nan"), 1.0, 2.0)[0] == "no"
+
+
+@pytest.mark.parametrize(("one", "other"), [(0.31, 0.3), (0.316, 0.306), (0.335, 0.325), (0.19, 0.18)])
+def test_speeds_of_the_grid_that_lie_as_far_apart_as_a_border_are_within_it(one, other):
+    assert below(one - other, 0.01, 0.02)[0] == "yes"
+    assert above(other - one, -0.01, -0.02)[0] == "yes"

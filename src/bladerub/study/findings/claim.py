@@ -89,7 +89,8 @@ def ratio(value: Any, to: float, label: str) -> Any:
 
 def below(value: float, yes: float, partly: float) -> tuple[str, float]:
     """Judge a value that should be small, yes up to `yes`, partly up to `partly`: verdict and margin."""
-    return (YES if value <= yes else PARTLY if value <= partly else NO), yes - value
+    exact = round(value, 9)  # 0.31 - 0.30 is above 0.01 in binary numbers
+    return (YES if exact <= yes else PARTLY if exact <= partly else NO), yes - value
 
 
 def above(value: float, yes: float, partly: float) -> tuple[str, float]:

@@ -151,10 +151,8 @@ def stiff_is_rigid(evidence: Evidence) -> Finding:
     peaks = pd.DataFrame({key: _offset(evidence, *key) for key in keys}).dropna()  # coatings with all four
     peaks = peaks[peaks.index.get_level_values("K") == peaks.index.get_level_values("K").max()].droplevel("K")
     if peaks.shape[0] < 2 or peaks.index[-1] < paper.STIFFEST:
-        raise NotMeasurable(
-            f"at the highest K no E from {paper.STIFFEST:g} on and another from {_STIFF:g} on"
-        )
-    distance = (peaks.abs() / [paper.HARDLY[column] for _, column in peaks]).max(axis=1)
+        raise NotMeasurable(f"at the highest K no two E from {_STIFF:g}, one from {paper.STIFFEST:g} on")
+    distance = (peaks.abs() / [paper.HARDLY[column] for _, column in peaks]).max(axis=1).round(9)
     stiffest, softer = distance.iloc[-1], distance.iloc[:-1]
     close, nearest = stiffest <= 1, stiffest <= softer.min()
     offsets = [
