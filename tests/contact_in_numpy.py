@@ -15,7 +15,6 @@ from bladerub.contact.casing import shape
 from bladerub.contact.laws import module_of
 from bladerub.contact.setup import time_step
 from bladerub.contact.tip import coverage, edge, relief
-from bladerub.extras.laws.heating import HEATED, cell_heights
 
 
 def simulate(blade, spec, n_steps, n_modes=None):
@@ -200,6 +199,9 @@ class _Heat:
     """Temperature of the elements, in cells from the surface on, as in `bladerub.extras.laws.heating`."""
 
     def __init__(self, spec, coating, area, h):
+        from bladerub.extras.laws.heating import HEATED, cell_heights
+
+        self.heated = HEATED
         own, n = dict(spec.coating.element_law.parameters), spec.coating.n_elements
         self.law, self.coating, self.area, self.radius = coating.law, spec.coating, area, coating.radius
         self.resistance, self.share = np.sin(spec.coating.theta), own["friction_share"]
@@ -239,7 +241,8 @@ class _Heat:
         ring = (np.arange(n) - self.first - passed + n // 2 + n // 4) % n  # (j, N)
         other = ring < n // 2
         area = np.broadcast_to(self.area, before.shape)[other]
-        self.rise[other, :HEATED] += (self.energy[other] / area / self.capacity[:HEATED].sum())[:, None]
+        heated = self.energy[other] / area / self.capacity[: self.heated].sum()
+        self.rise[other, : self.heated] += heated[:, None]
         self.rise[other] = self.rise[other] @ self.turn.T
         self.energy[other] = 0.0
         parts = self.height / self.law.strength(self.coating, self.rise)

@@ -61,12 +61,14 @@ def is_of_a_deleted_study(target):
     return target.name == "README.md" and STUDIES in target.parents and not target.parent.exists()
 
 
+@pytest.mark.extras
 def test_every_path_named_is_in_the_repository():
     for page, text in PAGES.items():
         for path in set(PATH.findall(text)) - NOT_IN_GIT:
             assert (ROOT / path).exists(), f"{page}: {path}"
 
 
+@pytest.mark.extras
 def test_every_name_of_the_package_exists():
     for page, text in PAGES.items():
         for name in set(NAME.findall(text)):
@@ -111,6 +113,7 @@ def parses(command):
     return True
 
 
+@pytest.mark.extras
 def test_the_commands_of_pages_are_accepted():
     for page, text in PAGES.items():
         for command in set(commands(text)):
@@ -153,6 +156,7 @@ def test_every_function_of_the_index_bears_its_tag():
         assert re.search(re.escape(row["tag"]) + r"(?!\d)", source), row
 
 
+@pytest.mark.extras
 @pytest.mark.parametrize(
     ("page", "site", "text", "followed"),
     [
@@ -177,6 +181,7 @@ def taken(tmp_path, name, table):
     return tables.read(target)
 
 
+@pytest.mark.extras
 def test_runs_with_equal_outcome_are_counted_and_quoted_columns_kept_to_four_digits(tmp_path):
     columns = [*snapshots.COUNTED["long_runs"], "f_omega"]
     rows = [("theta", "f4", 500, "free", f_omega) for f_omega in (0.1, 0.2)]
@@ -190,6 +195,7 @@ def test_runs_with_equal_outcome_are_counted_and_quoted_columns_kept_to_four_dig
     assert taken(tmp_path, "calibration", table).to_dict("records") == [kept]
 
 
+@pytest.mark.extras
 def test_a_snapshot_taken_of_itself_is_the_same(tmp_path):
     """Its columns are described, those of studies too."""
     paths = [

@@ -31,6 +31,7 @@ def test_each_name_of_a_page_has_a_number_and_each_number_is_quoted(page, tables
     assert set(NAME.findall(PAGES[page])) == set(numbers_of(page, tables))
 
 
+@pytest.mark.extras
 def test_the_numbers_are_those_on_record(tables):
     """A review sees in ``values.txt`` what a change does to the pages (``python -m docs.numbers.record``)."""
     assert values(tables) == VALUES.read_text(encoding="utf-8")
@@ -40,6 +41,7 @@ def test_no_sentence_was_written_for_another_verdict(tables):
     assert changed_sentences(SENTENCES, tables["findings"]) == []
 
 
+@pytest.mark.extras
 def test_each_sentence_is_on_its_page():
     texts = {page: " ".join(text.split()) for page, text in PAGES.items()}
     assert [line.sentence for line in SENTENCES.itertuples() if line.sentence not in texts[line.page]] == []

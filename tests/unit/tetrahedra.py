@@ -1,11 +1,11 @@
 import numpy as np
 from skfem import MeshTet1
 
-from bladerub.extras.blade_meshes import MeshTetP2
-
 
 def tetrahedral_mesh(xi, eta, zeta, points):
     """As `bladerub.blade.mesh.hexahedral_mesh`, each cell of the lattice cut into tetrahedra."""
+    from bladerub.extras.blade_meshes import MeshTetP2
+
     cube = MeshTet1.init_tensor(xi, eta, zeta)
     edges = np.diff(cube.p[:, cube.t], axis=1)
     left_handed = np.einsum("in,in->n", np.cross(edges[:, 0], edges[:, 1], axis=0), edges[:, 2]) < 0

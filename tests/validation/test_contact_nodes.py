@@ -20,6 +20,7 @@ def wide(request, coarse_config):
     return build(nodes.replaced("reduction.accuracy_modes", 4)).reduced
 
 
+@pytest.mark.extras(cases=r"True")
 @pytest.mark.parametrize("turns", [pytest.param(False, marks=pytest.mark.nightly), True])
 def test_the_loop_agrees_with_the_reference_model(wide, spec_of, turns):
     coarse = {"n_elements": 200, "modulus_unit": 150e6, "steps_per_element": 12, "max_time_step": 1e-5}
@@ -44,6 +45,7 @@ LONG = [pytest.param(*of, marks=pytest.mark.nightly) for of in ((12, np.inf), (1
 
 
 # without elements no profile is met, which is another loop to compile for each width
+@pytest.mark.extras(cases=r"0.5")
 @pytest.mark.parametrize(("wide", "modulus"), [(5, 0.5), (5, np.inf), (12, 0.5), *LONG], indirect=["wide"])
 def test_energy_is_kept(wide, spec_of, modulus):
     result = simulate(wide, spec_of(modulus, modulus, 0.346, turns=True, revolutions=2))

@@ -64,6 +64,7 @@ def test_order(coarse_blade, fine, scheme, coarsest, lowest, highest):
     assert np.all(orders < highest)
 
 
+@pytest.mark.extras(cases=r"True")
 @pytest.mark.parametrize(
     ("E", "K", "theta", "f_omega", "turns"),
     [

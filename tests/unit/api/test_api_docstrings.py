@@ -9,12 +9,14 @@ import bladerub as br
 NAMES = [name for name in dir(br) if name != "__version__"]
 
 
+@pytest.mark.extras
 def test_every_public_name_is_on_the_page_of_the_interface():
     page = (Path(__file__).parents[3] / "docs" / "reference" / "api.md").read_text(encoding="utf-8")
     documented = re.findall(r"^\.\. auto(?:function|class|exception):: (\w+)$", page, re.M)
     assert sorted(documented) == sorted(NAMES)
 
 
+@pytest.mark.extras
 @pytest.mark.parametrize("name", NAMES)
 def test_examples_of_a_public_name_run(name, study, blade, run, sweep, small, tmp_path, monkeypatch):
     monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))

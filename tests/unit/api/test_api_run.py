@@ -7,6 +7,7 @@ from bladerub.study.job import compute_missing
 from bladerub.study.plan import CoatingPlan, planned_run
 
 
+@pytest.mark.extras
 def test_progress_and_each_count_the_revolutions_and_a_speed_of_no_such_blade_is_named(study, blade, capsys):
     done = []
     asked = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=2)
@@ -37,6 +38,7 @@ def test_growing_run_is_followed_further(study, blade):
     assert run.verdict().revolutions == run.longer.revolutions > short.verdict().revolutions
 
 
+@pytest.mark.extras
 def test_a_row_tells_of_each_blade(study, blade):
     row = br.Row.even(3, length=[0.0, 5e-5, -4e-3], frequency=[0.0, 0.01, 0.0])
     row_run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3), row=row)
@@ -51,6 +53,7 @@ def test_a_row_tells_of_each_blade(study, blade):
     assert row_run.to_xarray()["blade_worn_volume"].dims == ("blade",)
 
 
+@pytest.mark.extras
 def test_rows_are_computed_once_and_again_when_their_blades_change(study, blade, tmp_path):
     planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3).of_length(blade.length)
 
@@ -67,6 +70,7 @@ def test_rows_are_computed_once_and_again_when_their_blades_change(study, blade,
     pd.testing.assert_frame_equal(br.read_run(tmp_path / "0.h5").blades, first.blades)
 
 
+@pytest.mark.extras
 def test_the_run_with_its_stress_is_the_run(study, blade):
     asked = study.run("2nd", E=2, K=0.5, f_omega=0.19)
     run, stressed = br.simulate(blade, asked), br.simulate(blade, asked, stress=True)

@@ -65,6 +65,7 @@ def test_blade_is_built_once_and_goes_to_xarray_and_pandas(study, blade, small, 
     np.testing.assert_array_equal(blade.frequencies([0.0, 0.2], 2), single)
 
 
+@pytest.mark.extras
 def test_a_doubtful_blade_gets_a_warning(study, blade, small, monkeypatch):
     monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
     fast = study.config.replaced("figures.nominal_speed", 6e4)
@@ -72,6 +73,7 @@ def test_a_doubtful_blade_gets_a_warning(study, blade, small, monkeypatch):
         br.build_blade(br.Study(fast, study.folder))
 
 
+@pytest.mark.extras
 def test_speeds_ascend_and_are_the_single_runs_whatever_the_jobs(study, blade, sweep):
     coating = study.coating("2nd", E=2, K=0.5)
     again = br.simulate_speeds(blade, coating, [0.19, 0.2], jobs=2, progress=False)

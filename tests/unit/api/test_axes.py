@@ -38,6 +38,7 @@ def test_wear_is_drawn_around_polar_axes_and_along_others(run, stiffer, axes):
     plt.close(polar.figure)
 
 
+@pytest.mark.extras
 def test_histories_maps_and_the_blade_are_drawn_into_the_axes(run, sweep, blade):
     history, wear, spectra, campbell, mesh = (Figure().add_subplot() for _ in range(5))
     assert run.plot_history(ax=history) is history
@@ -65,6 +66,7 @@ def test_lists_give_lists_over_their_combinations(study, blade):
     assert solved[0] == br.simulate(blade, runs[0], follow=False)
 
 
+@pytest.mark.extras
 def test_a_table_of_speeds_says_what_the_runs_do(study, blade, sweep):
     table = sweep.to_pandas()
     for f_omega, row in table.iterrows():

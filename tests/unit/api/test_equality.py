@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import bladerub as br
-from bladerub.extras.ensembles import ensemble as study_ensemble
 from bladerub.io.equality import equal
 from bladerub.study.manifest import ManifestRow, confirmation_path, write_manifest
 
@@ -29,6 +28,7 @@ def ensemble(blade, planned, followed):
     return br.simulate_ensemble(blade, planned, 2, own=followed, jobs=2, progress=False)
 
 
+@pytest.mark.extras
 def test_a_run_is_written_whole(study, run, followed, blade, tmp_path):
     settings = study.config.analysis.divergence
     assert followed.longer
@@ -48,6 +48,7 @@ def test_a_run_is_written_whole(study, run, followed, blade, tmp_path):
     assert followed != replace(followed, stress=None)
 
 
+@pytest.mark.extras
 def test_the_longer_run_of_a_study_is_the_one_that_its_manifest_lists(study, run, followed, tmp_path):
     path, key = tmp_path / "0.2000.h5", followed.attributes["run_key"]
     run.write(confirmation_path(path), study.config)
@@ -63,7 +64,10 @@ def test_the_longer_run_of_a_study_is_the_one_that_its_manifest_lists(study, run
     assert br.read_run(path) == followed
 
 
+@pytest.mark.extras
 def test_maps_and_ensembles_are_written_whole(study, blade, sweep, planned, ensemble, tmp_path):
+    from bladerub.extras.ensembles import ensemble as study_ensemble
+
     sweep.write(tmp_path / "map.h5", study.config)
     assert br.read_map(tmp_path / "map.h5") == sweep
     ensemble.write(tmp_path / "ensemble.h5")
@@ -90,6 +94,7 @@ def test_maps_and_ensembles_are_written_whole(study, blade, sweep, planned, ense
     assert study_ensemble.read(tmp_path / "of_study.h5") == of_study
 
 
+@pytest.mark.extras
 def test_every_public_object_survives_a_pickle(study, blade, run, sweep, planned, ensemble):
     law = br.Law("viscoplastic", viscosity=1e4)
     sizes = {"thickness": 3e-3, "tip_width": 1e-2, "tip_length": 2e-3, "track": 1.0, "law": law.element_law}

@@ -21,7 +21,10 @@ def matmul(a, b):
     return np.einsum("ij...,jk...->ik...", a, b)
 
 
-@pytest.fixture(params=[hexahedral_mesh, tetrahedral_mesh], ids=["hexahedra", "tetrahedra"])
+TETRAHEDRA = pytest.param(tetrahedral_mesh, id="tetrahedra", marks=pytest.mark.extras)
+
+
+@pytest.fixture(params=[pytest.param(hexahedral_mesh, id="hexahedra"), TETRAHEDRA])
 def make_mesh(request):
     return request.param
 

@@ -61,6 +61,7 @@ def folder(folder):
     return folder
 
 
+@pytest.mark.extras(cases=r"--(blades|coupling|law)|verify|benchmark|config unsafe|compare")
 @pytest.mark.parametrize("line", COMMANDS)
 def test_a_bad_command_line_is_refused(folder, at_home, refusal, monkeypatch, line):
     monkeypatch.chdir(folder)

@@ -13,8 +13,6 @@ import pytest
 import bladerub.command
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
-from bladerub.extras.ensembles import interface
-from bladerub.extras.many_runs import solve_all
 from bladerub.io.hdf5 import read_attributes
 from bladerub.study.store import read_run
 
@@ -54,6 +52,7 @@ def test_a_run_may_be_replaced_but_nothing_else(small, blade_file, folder, comma
     assert blade_file.read_bytes() == before
 
 
+@pytest.mark.extras
 def test_the_stress_of_a_run_is_that_of_its_motion(small, blade_file, folder, figures):
     path, overlay = folder / "stressed.h5", folder / "last.yaml"
     few = "analysis: {spectrum_revolutions: 1, max_order: 20}\n"
@@ -82,7 +81,11 @@ def test_a_speed_in_revolutions_a_minute_is_the_same_run(small, blade_file, figu
     assert figures(*RUN, *in_units, *small)["run_key"] == by_f["run_key"]
 
 
+@pytest.mark.extras
 def test_an_ensemble_shows_its_bands(small, blade_file, figures, monkeypatch):
+    from bladerub.extras.ensembles import interface
+    from bladerub.extras.many_runs import solve_all
+
     further = []
 
     def solved(blade, runs, *more):
@@ -95,6 +98,7 @@ def test_an_ensemble_shows_its_bands(small, blade_file, figures, monkeypatch):
     assert bands["max_wear"]["low"] <= bands["max_wear"]["median"] <= bands["max_wear"]["high"]
 
 
+@pytest.mark.extras
 def test_a_row_shows_its_blades(small, blade_file, folder, figures, refusal):
     row = ["--blades", "3", "--length-scatter", "2e-5", "--frequency-scatter", "0.01", "--coupling", "0.01"]
     found = figures(*RUN, *small, *row, "--output", folder / "row.h5")
@@ -154,6 +158,7 @@ def test_a_blade_that_is_damaged_or_of_another_config_is_named_and_made_anew_whe
     assert path.read_bytes() == whole
 
 
+@pytest.mark.extras
 def test_a_reader_that_ends_early_is_no_error(tmp_path):
     overlay = tmp_path / "nowhere.yaml"
     overlay.write_text("results: nowhere\n")
@@ -165,6 +170,7 @@ def test_a_reader_that_ends_early_is_no_error(tmp_path):
         assert process.wait() == 0
 
 
+@pytest.mark.extras
 def test_every_text_can_be_printed_in_any_locale(monkeypatch):
     text = "θ = 0.15, 10 µm, M\udcfcller.inp"  # a name of other bytes
     stream = io.TextIOWrapper(io.BytesIO(), "ascii")

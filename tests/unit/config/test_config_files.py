@@ -109,6 +109,7 @@ def test_keys_and_values_are_written_on_one_short_line():
     assert format_value("a\nb\x1b[31m") == '"a b [31m"'
 
 
+@pytest.mark.extras(cases=r"law")
 @pytest.mark.parametrize(
     ("text", "reading", "key"),
     [

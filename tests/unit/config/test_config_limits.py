@@ -81,6 +81,7 @@ SUMS = ("speeds", "blade.mesh:", "coatings[0]:", "rotor.blades = 36:")
 """What is named where several keys together are too much."""
 
 
+@pytest.mark.extras(cases=r"others4-|rotor|sweeps|chart")
 @pytest.mark.parametrize(("others", "key", "inside", "outside"), BORDERS)
 def test_parts_of_a_config_agree_up_to_the_border_and_not_beyond(
     config, problems, others, key, inside, outside
@@ -94,6 +95,7 @@ def test_parts_of_a_config_agree_up_to_the_border_and_not_beyond(
     assert problem.text.startswith((key, *SUMS))
 
 
+@pytest.mark.extras
 def test_matrices_fix_the_number_of_fit_speeds(config, problems, tmp_path):
     for name in ("mass.mtx", "stiffness_rest.mtx", "stiffness_half.mtx", "stiffness_max.mtx", "nodes.csv"):
         (tmp_path / name).touch()

@@ -21,6 +21,7 @@ WILD = [
 RIGHT = ("must ", "unknown key", "not valid YAML", "there is no such file")
 
 
+@pytest.mark.extras(cases=r"source\.file|contact\.law")
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.key)
 def test_a_mistake_is_named_with_file_line_key_and_what_is_right(tmp_path, problems, mistake):
     path = tmp_path / "my.yaml"

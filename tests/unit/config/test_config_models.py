@@ -72,6 +72,7 @@ def test_defaults_are_of_keys_that_may_be_left_out():
     assert not defaults().keys() & required()
 
 
+@pytest.mark.extras
 def test_settings_of_extras_are_named_by_their_plugins():
     """A `settings.py` that nothing names would check nothing."""
     settings = {path.parent.name for path in (PACKAGE / "extras").glob("*/settings.py")}

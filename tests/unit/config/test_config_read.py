@@ -7,6 +7,7 @@ from bladerub.io.folders import ROOT
 STUDY = ROOT / "config" / "config.yaml"
 
 
+@pytest.mark.extras(cases=r"over[12]")
 @pytest.mark.parametrize("over", [[], ["quick.yaml"], ["twisted_plate.yaml"]])
 def test_configs_of_the_repository_are_valid(over):
     config = load(STUDY, *(STUDY.with_name(name) for name in over))
@@ -26,6 +27,7 @@ def test_each_kind_of_coating_has_keys_of_its_own(config, problems, entry, start
     assert [problem.text.startswith(start) for problem in problems(config)] == [True]
 
 
+@pytest.mark.extras
 def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, problems, tmp_path):
     for name in ("blade.csv", "blade.msh"):
         (tmp_path / name).write_text("anything")

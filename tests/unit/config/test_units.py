@@ -77,6 +77,7 @@ def test_the_first_frequency_is_that_of_the_blade_and_kept(study):
     assert kept_frequency(config) == first_frequency(config)
 
 
+@pytest.mark.extras
 def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
     scale = "scale: {length: 2, modulus: 3, time: 1}"
     texts = [f"contact: {{layer_thickness: {h}, {scale}}}\nfigures: {{dpi: 160}}\n" for h in ("6 mm", 6e-3)]
@@ -86,6 +87,7 @@ def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
     assert number("E", "1.8 GPa", references(configs[0])) == 1.0
 
 
+@pytest.mark.extras(cases=r"law")
 @pytest.mark.parametrize(
     ("setting", "words"),
     [
@@ -117,6 +119,7 @@ def test_a_number_that_is_hardly_above_what_is_allowed_is_no_speed_in_rpm(study,
     assert "write" not in problem.text
 
 
+@pytest.mark.extras(cases=r"law")
 @pytest.mark.parametrize(
     ("cause", "culprit"),
     [("blade: {sections: []}", "blade.sections"), ("contact: {law: {name: plastik}}", "contact.law.name")],

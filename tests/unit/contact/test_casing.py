@@ -8,7 +8,6 @@ from bladerub.contact.casing import gap, shape
 from bladerub.contact.illustration import loading_cycle, pressed_elements
 from bladerub.contact.spec import Casing, Coating, TipProfile
 from bladerub.contact.tip import coverage, highest, mean_coverage, relief
-from bladerub.extras.law_reading import described_law
 
 TWO = Casing("2nd", (2,), (1.0,), 1e-3, 0.36e-3, 0.0)
 BOTH = Casing("2nd5nd", (2, 5), (0.25, 1.0), 0.5e-3, 0.36e-3, 0.0)
@@ -65,7 +64,10 @@ def test_a_loading_cycle_follows_the_moduli():
     assert cycle.stress[-1] == 0
 
 
+@pytest.mark.extras
 def test_a_loading_cycle_is_by_the_law_of_the_coating_at_a_rate():
+    from bladerub.extras.law_reading import described_law
+
     viscous = dataclasses.replace(COATING, element_law=described_law("viscoplastic", {"viscosity": 1e4}))
     slow, fast = (loading_cycle(viscous, (0.0, 0.03, 0.0), 300, rate) for rate in (1e-3, 1e7))
     plastic = loading_cycle(COATING, (0.0, 0.03, 0.0), 300)

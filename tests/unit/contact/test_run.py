@@ -69,6 +69,7 @@ def turning_blade(blade):
     return dataclasses.replace(blade, tip_slope=slope)
 
 
+@pytest.mark.extras
 @pytest.mark.parametrize(("E", "K", "theta"), [(1.1, 0.5, 0.0), (0.11, 10.0, 0.15), (3.0, 0.05, 0.1)])
 @pytest.mark.parametrize("scheme", ["central_differences", "exponential"])
 def test_loop_agrees_with_numpy_reference_where_the_profile_turns(
@@ -82,6 +83,7 @@ def test_loop_agrees_with_numpy_reference_where_the_profile_turns(
     check(result, history, wear, spec)
 
 
+@pytest.mark.extras(cases=r"values1")
 @pytest.mark.parametrize(
     "values",
     [
@@ -134,6 +136,7 @@ def test_energy_ledger_of_the_blade_closes_to_rounding(blade, spec, change, thet
     assert (energy.work_rotation > 0) == (theta > 0)
 
 
+@pytest.mark.extras(cases=r"True")
 @pytest.mark.parametrize("turns", [False, True])
 def test_energy_ledger_of_blade_and_coating_closes(turning_blade, spec, change, turns):
     spec = change(spec, E=2.0, theta=0.1, turns=turns, steps_per_element=48, max_time_step=1e-3)

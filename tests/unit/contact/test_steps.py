@@ -9,8 +9,6 @@ from bladerub.contact import setup
 from bladerub.contact.modes import Modes, mode_shapes_at, modes_at
 from bladerub.contact.schemes import FASTEST_PHASE, STEADY, Contact, central_differences, exponential
 from bladerub.contact.steps import AVERAGED, BOUNCE, PASSAGE, STABLE_PART, bounce, steps_per_element
-from bladerub.extras.law_reading import described_law
-from bladerub.extras.turning.motion import further
 
 MASS, STIFFNESS = 1e-3, 2e7
 SOFT = Contact(np.full(8, 1e5), -1.0, 0.0)
@@ -50,7 +48,10 @@ def test_as_few_steps_as_the_sum_of_both_errors_allows(by_tolerance, mass, toler
     assert n == math.ceil(math.sqrt((PASSAGE**2 + of_bounce) / tolerance))
 
 
+@pytest.mark.extras
 def test_a_law_that_depends_on_the_rate_counts_half_a_step(blade, by_tolerance):
+    from bladerub.extras.law_reading import described_law
+
     run = by_tolerance(E=0.01, tolerance=1e-2)
     viscous = replace(run.coating, element_law=described_law("viscoplastic", {"viscosity": 1e4}))
     assert setup.fixed_steps(blade, run).steps_per_element == 4
@@ -74,8 +75,11 @@ def test_modes_diagonalise_the_blade_and_give_its_static_tip_compliance(blade):
     np.testing.assert_allclose(compliance[0], np.concatenate([radial, tangential]), rtol=1e-9, atol=1e-16)
 
 
+@pytest.mark.extras
 def test_turn_of_the_whole_blade_about_the_axis_tilts_no_profile(blade, spec):
     """The tip's slope is minus the angle then, and the normal of the casing turns with the nodes."""
+    from bladerub.extras.turning.motion import further
+
     _, y, z = blade.node_position.T
     turn = np.concatenate([np.column_stack([0 * y, z, -y]).ravel(), np.zeros(6)])
     turning = replace(blade, tip_slope=-np.outer(np.ones(8), turn) / (turn @ turn))

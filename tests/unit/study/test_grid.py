@@ -66,6 +66,7 @@ def test_run_spec_is_in_si(config, case):
     assert (spec.coating.E, spec.coating.K, spec.coating.theta) == (2.0, 0.5, 0.15)
 
 
+@pytest.mark.extras
 def test_the_scale_of_another_blade_multiplies_lengths_moduli_and_times(config, case):
     config = changed(config, solver={"max_time_step": 1e-6})
     before = pd.json_normalize(dataclasses.asdict(grid.run_spec(config, case, 0.19))).iloc[0]
@@ -100,6 +101,7 @@ def test_lists_of_an_entry_stand_for_all_combinations(config):
     assert [grid.keeps_history(config, case, 0.19) for case in cases] == [False, True, False, False, False]
 
 
+@pytest.mark.extras
 def test_a_variant_changes_its_own_runs_alone(config):
     config = changed(config, contact={"scale": {"length": 2.0, "modulus": 1.0, "time": 1.0}})
     before, after = (grid.run_spec(config, case, 0.19) for case in (PLAIN, VARIANT))

@@ -6,7 +6,6 @@ import math
 import pytest
 from study_fixtures import changed
 
-from bladerub.extras.export.recording import claimed_run
 from bladerub.io import provenance
 from bladerub.study import grid, plan
 from bladerub.study.grid import CoatingCase, run_spec
@@ -45,6 +44,7 @@ def _other(leaf):
     return leaf + 1 if isinstance(leaf, int) else math.nextafter(leaf, 0.0 if leaf == math.inf else math.inf)
 
 
+@pytest.mark.extras
 def test_every_field_of_the_run_changes_the_key(key, spec):
     leaves = list(_leaves(spec))
     assert len(leaves) == 32
@@ -64,6 +64,7 @@ def test_what_else_shapes_the_file_changes_the_key(key, config, monkeypatch):
     assert len(set(keys)) == 9
 
 
+@pytest.mark.extras
 def test_the_code_of_a_motion_is_part_of_the_key_of_runs_that_have_it_alone(key, spec, monkeypatch):
     turning = dataclasses.replace(spec, tip=dataclasses.replace(spec.tip, turns=True))
     before = key(), key(turning)
@@ -109,8 +110,11 @@ def test_every_setting_decides_which_runs_are_repeated_and_none_where_none_is(co
     assert growth_key(off) == growth_key(off.replaced("analysis.divergence.growth", 0.5))
 
 
+@pytest.mark.extras
 @pytest.mark.parametrize(("history", "revolutions"), [(False, 20), (True, 3)])
 def test_a_stored_run_is_planned_again_from_what_it_says(config, case, spec, history, revolutions):
+    from bladerub.extras.export.recording import claimed_run
+
     spec = dataclasses.replace(spec, revolutions=revolutions)
     attributes = dataclasses.asdict(case) | {"f_omega": spec.f_omega, "revolutions": revolutions}
     stored = StoredRun(attributes, {"radial_displacement": None} if history else {})

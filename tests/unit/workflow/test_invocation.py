@@ -42,6 +42,7 @@ def test_the_rules_do_not_import_the_compiler():
     assert subprocess.check_output([sys.executable, "-c", program], text=True) == "False\n"
 
 
+@pytest.mark.extras
 def test_a_study_without_its_extra_is_left_out(tmp_path):
     for name, extra in (("one", "cost.jobs"), ("two", "nowhere.table"), ("three", "chart.stress")):
         (tmp_path / "studies" / name / "scripts").mkdir(parents=True)

@@ -87,6 +87,7 @@ def after_flight(scheme, q):
     return rule, record, given
 
 
+@pytest.mark.extras(cases=r"turning")
 def test_free_flight_equals_its_single_steps(scheme, vibration):
     rule, record, (loss, mean, *_) = after_flight(scheme, vibration)
     n = scheme.omega.size
@@ -103,6 +104,7 @@ def test_free_flight_equals_its_single_steps(scheme, vibration):
     assert next_loss(addresses(rule), addresses(record)) == 0.0
 
 
+@pytest.mark.extras(cases=r"turning")
 def test_no_node_approaches_by_more_than_the_bound(scheme, vibration):
     _, _, (*_, next_bound, bound) = after_flight(scheme, vibration)
     tip = in_steps(scheme, vibration, 2 * STEPS)[2:] @ scheme.tip.T
@@ -114,6 +116,7 @@ def test_no_node_approaches_by_more_than_the_bound(scheme, vibration):
         assert moved[:, 8:16].max() <= free_flight.free_flight(scheme, STEPS, SLOPE, EDGE).sideways * limit
 
 
+@pytest.mark.extras(cases=r"turning")
 @pytest.mark.parametrize("moves", [False, True], ids=["deflected", "moving"])
 def test_the_bound_of_a_single_mode_is_what_it_reaches(scheme, moves):
     """Only the sum over modes makes it a bound: a single mode that starts so reaches all of it."""
@@ -129,6 +132,7 @@ def test_the_bound_of_a_single_mode_is_what_it_reaches(scheme, moves):
         assert bound == pytest.approx(reached * (radial + SLOPE * tangential + EDGE * tilt)[mode], rel=1e-9)
 
 
+@pytest.mark.extras(cases=r"turning")
 def test_the_bound_of_the_next_flight_is_that_from_where_the_first_ends(scheme, vibration):
     *_, next_bound, _ = after_flight(scheme, vibration)[2]
     end = in_steps(scheme, vibration, STEPS)[:-4:-1]
