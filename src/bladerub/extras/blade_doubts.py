@@ -6,14 +6,12 @@ import pandas as pd
 from pydantic import Field
 
 from bladerub.api.arguments import InputError
-from bladerub.config.quantities import checked_number
-from bladerub.settings.units import Unit
+from bladerub.config.quantities import checked_number, key_at
 
 MODES = 6  # that the reduced model must follow, as the paper's does with its η
 EQ2_ERROR = 0.01
 EQ2_FAR_OFF = 0.1  # no blade of metal bends so much by its rotation
 REDUCED_ERROR = 0.02
-NOMINAL_SPEED = Annotated[float, Unit("1/min"), Field(gt=0, le=1e6)]  # as that of `Figures`
 
 
 def errors_by_mode(table: pd.DataFrame) -> pd.DataFrame:
@@ -34,8 +32,11 @@ def percent(error: float) -> str:
 
 def _in_rpm(nominal_speed: float | str) -> float:
     """Return a nominal speed in 1/min; it is checked as that of a config is."""
+    name = "figures.nominal_speed"
+    key = key_at(name)
+    kind = Annotated[float, key.unit, Field(**key.bounds)]
     try:
-        return checked_number("figures.nominal_speed", nominal_speed, NOMINAL_SPEED, lambda _: 1.0)
+        return checked_number(name, nominal_speed, kind, lambda _: 1.0)
     except ValueError as error:
         raise InputError("nominal_speed", nominal_speed, str(error)) from None
 
