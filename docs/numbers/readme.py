@@ -98,7 +98,8 @@ def _answers(here, peaks):
             f"at our peaks on eo(6), {f6[0]} and {f6[1]}, and at the paper's speeds (fitted)",
         ),
         "C12": (
-            "E above 20 is as rigid, below 0.11 nothing dangerous",
-            f"E = 20 against the rigid casing: {here['C12a'].split(';')[0]}",
+            "E above 20 is as rigid, below 0.11 nothing dangerous; a coating may be worse than none",
+            f"E = 20 against the rigid casing: {here['C12a'].split(';')[0]}; "
+            f"highest Y4 and Y6: {fixed(here['C12c'], 1)} and {fixed(here['C12d'], 1)} times those of it",
         ),
     }

@@ -359,6 +359,16 @@ def test_distance_of_a_stiff_coating_from_the_rigid_casing(
     assert (finding.holds, finding.margin) == (holds, pytest.approx(margin, abs=1e-9))
 
 
+@pytest.mark.parametrize(("id_", "order"), [("C12c", 4), ("C12d", 6)])
+@pytest.mark.parametrize(("highest", "holds"), [(1.001, "yes"), (0.999, "no")])
+def test_highest_coating_over_the_rigid_casing(evidence, id_, order, highest, holds):
+    # E = 0.05 and 30 are not in the paper's range
+    heights = {0.05: 9.0, 0.11: 1.0, 1.1: 2.0 * highest, 20.0: 1.5, 30.0: 9.0}
+    rows = [over_moduli(lambda e, k: heights[e] * k, heights, [0.5, 1.0], order)]
+    rows.append(peak_rows((RIGID, order, 0.3, 2.0), (RIGID, 10 - order, 0.3, 9.0)))
+    check(id_, evidence(peaks=pd.concat(rows, ignore_index=True)), highest, holds)
+
+
 @pytest.mark.parametrize(("n_divergent", "holds"), [(0, "yes"), (1, "partly"), (50, "partly"), (51, "no")])
 def test_share_of_divergent_runs_on_soft_coatings(evidence, n_divergent, holds):
     row = {**vars(CoatingCase("2nd", 0.1099, 0.5, 0.0)), "f_omega": 0.2, "divergent": True}

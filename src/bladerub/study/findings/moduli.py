@@ -185,3 +185,13 @@ def softer_is_harmless(evidence: Evidence) -> Finding:
     share = 100 * float(softer.divergent.mean())
     text = "no dangerous interaction below E = 0.11: share of divergent runs"
     return Finding(text, 0, share, "%", *below(share, 0, 5))
+
+
+@claim("C12c", 'a coating may raise Y4 above direct contact ("Conclusion", Fig. 11)', 4, "Fig. 11")
+@claim("C12d", 'a coating may raise Y6 above direct contact ("Conclusion", Fig. 13)', 6, "Fig. 13")
+def worse_than_rigid(evidence: Evidence, order: int, figure: str) -> Finding:
+    """Greatest height of a coating over that of the rigid casing."""
+    rigid = evidence.peak(paper.RIGID, order, "amplitude")
+    highest = ratio(float(_moduli(evidence, order, "amplitude").max(axis=None)), rigid, paper.RIGID.name)
+    text = f"a coating may raise Y{order} above that of the rigid casing: greatest ratio ({figure})"
+    return Finding(text, "above 1", highest, "1", *above(highest, 1, 1))
