@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.geometry import BladeShape
-from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.origin import Frame
 from bladerub.extras.blades.section_table import CYLINDRICAL, POINTS
 from bladerub.io import atomic
 
