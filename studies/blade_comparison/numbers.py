@@ -30,6 +30,7 @@ def numbers(tables):
 
 def _blades(comparison):
     """Write the numbers of both blades: name, factor and decimals of each."""
+    radial = "radial displacement of the tip under a radial force on all eight nodes, µm/N"
     what = {
         "f1": ("first frequency at rest, Hz", 1, 1),
         "f2_over_f1": ("f2 / f1", 1, 2),
@@ -37,11 +38,7 @@ def _blades(comparison):
         "stiffening": ("C1(0.4) / C1(0)", 1, 3),
         "lean_leading_edge": ("u_r / u_t of mode 1, leading edge", 1, 2),
         "lean_trailing_edge": ("the same, trailing edge", 1, 2),
-        "radial_compliance": (
-            "radial displacement of the tip under a radial force on all eight nodes, µm/N",
-            1e6,
-            2,
-        ),
+        "radial_compliance": (radial, 1e6, 2),
         "centrifugal_displacement": ("largest centrifugal displacement at 0.4, mm", 1e3, 2),
         "error_eq2": ("error of eq. (2), modes 1 to 7 over [0, 0.4], %", 100, 2),
         "error_modes_1_to_6": ("error of the reduced model, modes 1 to 6, %", 100, 2),
@@ -49,22 +46,16 @@ def _blades(comparison):
         "coordinates": ("reduced coordinates", 1, 0),
     }
     values = comparison.set_index(["number", "blade"])["value"]
-    both = {"twisted plate": "this", "default blade": "reference"}
-    return table(
-        [
-            {"": label}
-            | {name: fixed(factor * values[number, blade], digits) for name, blade in both.items()}
-            for number, (label, factor, digits) in what.items()
-        ]
-    )
+    lines = []
+    for number, (label, factor, digits) in what.items():
+        this, reference = (fixed(factor * values[number, blade], digits) for blade in ("this", "reference"))
+        lines.append({"": label, "twisted plate": this, "default blade": reference})
+    return table(lines)
 
 
 def _peaks(plate, default):
-    both = {"twisted plate": plate, "default blade": default}
-    return table(
-        [
-            {"peak": f"f{order}"}
-            | {name: fixed(peak(peaks, 2, 0.5, order)["f_peak"], 3) for name, peaks in both.items()}
-            for order in (4, 6)
-        ]
-    )
+    lines = []
+    for order in (4, 6):
+        this, reference = (fixed(peak(peaks, 2, 0.5, order)["f_peak"], 3) for peaks in (plate, default))
+        lines.append({"peak": f"f{order}", "twisted plate": this, "default blade": reference})
+    return table(lines)

@@ -1,6 +1,6 @@
 """The blade against CalculiX, an independent finite element program, at rest and rotating.
 
-The decks are those of `bladerub.extras.export.calculix`. The tests need the solver `ccx` on the path.
+The decks are those of `bladerub.extras.export.blade_files`. The tests need the solver `ccx` on the path.
 
 For the stress a static step is added. CalculiX finds the displacement of the blade with C3D20 elements, of 27
 integration points each, and the stress at the nodes. Expected: the largest stress to 1 % outside of the
@@ -18,7 +18,7 @@ from bladerub.blade.build import build
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.config.read import read
 from bladerub.extras.blades.settings import Source
-from bladerub.extras.export.calculix import deck, write_decks
+from bladerub.extras.export.blade_files import deck, write_decks
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.stress.nodal import NodalStress, running_displacement, von_mises
 from bladerub.io.folders import ROOT

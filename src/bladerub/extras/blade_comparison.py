@@ -32,10 +32,7 @@ def _figures(built: BuiltBlade) -> list[tuple[str, float, str]]:
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     at_rest = table[table.f_omega == 0].set_index("mode").f_fe
     # A blade of matrices does not say how far rotation moves it
-    moved = max(
-        (np.linalg.norm(displacement, axis=1).max() for displacement in built.static_displacement[-1:]),
-        default=np.nan,
-    )
+    moved = max(np.linalg.norm(built.static_displacement[-1:], axis=-1).ravel(), default=np.nan)
     return [
         ("f1", at_rest[1], "Hz"),
         ("f2_over_f1", at_rest[2] / at_rest[1], "1"),
@@ -60,24 +57,19 @@ def radial_compliance(blade: ReducedBlade) -> float:
 
 
 def runs(
-    config: Config,
-    pairs: Iterable[tuple[CoatingMap, CoatingMap]],
-    lengths: tuple[float, float],
+    config: Config, pairs: Iterable[tuple[CoatingMap, CoatingMap]], lengths: tuple[float, float]
 ) -> pd.DataFrame:
     """Compare the maps of each coating at their common speeds: a row per speed, with `RUN_COLUMNS`.
 
     The first map of a pair is of the study of `config`, the second of the reference. A worn depth is the mean
     over the casing, as a share of the length of the blade, which `lengths` (m) has for both.
     """
-    tables = [
-        _of(config, one, lengths[0]).merge(
-            _of(config, other, lengths[1]).add_prefix("reference_"),
-            left_on="speed",
-            right_on="reference_speed",
-        )
-        for one, other in pairs
-    ]
-    return pd.concat(tables or [pd.DataFrame(columns=RUN_COLUMNS)], ignore_index=True)[RUN_COLUMNS]
+    tables = [pd.DataFrame(columns=RUN_COLUMNS)]
+    for one, other in pairs:
+        reference = _of(config, other, lengths[1]).add_prefix("reference_")
+        one_length = _of(config, one, lengths[0])
+        tables.append(one_length.merge(reference, left_on="speed", right_on="reference_speed"))
+    return pd.concat(tables[1:] or tables, ignore_index=True)[RUN_COLUMNS]
 
 
 def _of(config: Config, coating: CoatingMap, length: float) -> pd.DataFrame:

@@ -19,10 +19,8 @@ def errors_by_mode(table: pd.DataFrame) -> pd.DataFrame:
 
     Columns ``speed_law`` for eq. (2) alone and ``reduced_model`` for eq. (2) and the reduction together.
     """
-    errors = table[["mode"]].assign(
-        speed_law=(table.f_fe_eq2 / table.f_fe - 1).abs(), reduced_model=table.relative_error.abs()
-    )
-    return errors.groupby("mode").max()
+    speed_law, reduced_model = (table.f_fe_eq2 / table.f_fe - 1).abs(), table.relative_error.abs()
+    return table[["mode"]].assign(speed_law=speed_law, reduced_model=reduced_model).groupby("mode").max()
 
 
 def percent(error: float) -> str:
@@ -42,10 +40,9 @@ def _in_rpm(nominal_speed: float | str) -> float:
 
 
 def doubts(table: pd.DataFrame, nominal_speed: float | str | None = None) -> list[str]:
-    """List the doubts of an accuracy table, as `bladerub.blade.accuracy.doubts`.
+    """List the doubts of an accuracy table, as `bladerub.blade.accuracy.doubts`; `InputError` for no speed.
 
-    At the speeds of its fit eq. (2) is exact: a table of these alone tells nothing of it. Raises `InputError`
-    for a nominal speed that is none.
+    At the speeds of its fit eq. (2) is exact: a table of these alone tells nothing of it.
     """
     if nominal_speed is not None:
         nominal_speed = _in_rpm(nominal_speed)

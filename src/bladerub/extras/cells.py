@@ -17,14 +17,9 @@ import numpy as np
 
 from bladerub.settings import units
 
-LARGEST_FILE = 100_000_000
-"""Largest table that is read, in bytes."""
-
-UNITS, ANGLE_UNITS = (
-    {name: float(size) for name, size in units.UNITS[kind].items()} for kind in ("length", "angle")
-)
-"""Units of length and of angle by name, in SI."""
-
+LARGEST_FILE = 100_000_000  # bytes
+UNITS = {name: float(size) for name, size in units.UNITS["length"].items()}  # m
+ANGLE_UNITS = {name: float(size) for name, size in units.UNITS["angle"].items()}  # rad
 _SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", None: "white space"}
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}", re.ASCII)
@@ -56,8 +51,7 @@ class Cells(NamedTuple):
     def column(self, name: str) -> list[str]:
         """Return the cells of a column; capital and small letters are alike.
 
-        Raises ValueError, which names the line, if the column is there twice, or a row has more or fewer
-        cells than there are columns.
+        A ValueError names the line where the column is twice, or of a row with more or fewer cells.
         """
         lower = [column.lower() for column in self.names]
         if lower.count(name.lower()) > 1:
@@ -74,34 +68,26 @@ class Cells(NamedTuple):
     def numbers(self, name: str, empty: float = np.nan) -> np.ndarray:
         """Return the numbers (n_rows,) of a column; a cell with nothing in it is `empty`.
 
-        Raises ValueError as `column`, or if a cell is no finite number; names its line.
+        A ValueError names the line as `column`, or of a cell that is no finite number.
         """
-        numbers = np.empty(len(self.rows))
-        for index, (line, cell) in enumerate(zip(self.rows, self.column(name), strict=True)):
+        numbers, cells = [], self.column(name)
+        for line, cell in zip(self.rows, cells, strict=True):
             text = self._with_point(cell)
-            number = (
-                float(re.sub("[dD]", "e", text)) if _NUMBER.fullmatch(text) else np.nan if text else empty
-            )
-            if not np.isfinite(number):
-                excerpt = cell[:40] or "nothing"
-                raise ValueError(
-                    f"line {line}: {name} = {excerpt}, must be a finite number{self._cure([cell])}"
-                )
-            numbers[index] = number
-        if self.separator != "commas" and any("," in cell for cell in self.column(name)):
+            number = float(re.sub("[dD]", "e", text)) if _NUMBER.fullmatch(text) else np.nan
+            numbers.append(number if text else empty)
+            if not np.isfinite(numbers[-1]):
+                fault = f"{name} = {cell[:40] or 'nothing'}, must be a finite number"
+                raise ValueError(f"line {line}: {fault}{self._cure([cell])}")
+        if self.separator != "commas" and any("," in cell for cell in cells):
             self._check_marks()
-        return numbers
+        return np.array(numbers, float)
 
     def _check_marks(self) -> None:
         """Refuse commas that separate thousands, or may do so."""
-        marked = [
-            (line, cell)
-            for line, row in self.rows.items()
-            for cell in row
-            if re.search("[.,]", cell) and _NUMBER.fullmatch(cell.replace(",", "."))
-        ]
-        points = [(line, cell) for line, cell in marked if "." in cell]
-        commas = [(line, cell) for line, cell in marked if "," in cell]
+        cells = [(line, cell) for line, row in self.rows.items() for cell in row]
+        numbers = [(line, cell) for line, cell in cells if _NUMBER.fullmatch(cell.replace(",", "."))]
+        points = [(line, cell) for line, cell in numbers if "." in cell]
+        commas = [(line, cell) for line, cell in numbers if "," in cell]
         if points and commas:
             (line, cell), (other_line, other) = points[0], commas[0]
             raise ValueError(

@@ -5,25 +5,23 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-LONGEST_CALL = 20.0
-"""Time after which code of a user is taken for endless, s."""
+LONGEST_CALL = 20.0  # s, after which code of a user is taken for endless
 
 
 @contextmanager
 def bounded(what: str, seconds: float = 0.0) -> Iterator[None]:
-    """Run code of a user in this context; `what` names it.
+    """Run code of a user, `what`, in this context.
 
     Raises `ValueError` instead of whatever that code raises, `SystemExit` included, and if it has not ended
     after some seconds, by default `LONGEST_CALL`. Only Python code can be interrupted.
     """
-    thread, lock, inside, longest = threading.get_ident(), threading.Lock(), True, seconds or LONGEST_CALL
+    lock, inside, longest = threading.Lock(), True, seconds or LONGEST_CALL
+    thread, late = ctypes.c_ulong(threading.get_ident()), ctypes.py_object(TimeoutError)
 
     def interrupt() -> None:
         with lock:
             if inside:
-                ctypes.pythonapi.PyThreadState_SetAsyncExc(
-                    ctypes.c_ulong(thread), ctypes.py_object(TimeoutError)
-                )
+                ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, late)
 
     timer = threading.Timer(longest, interrupt)
     timer.daemon = True

@@ -6,7 +6,7 @@ job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.plots.stress import stress as draw
-from bladerub.extras.stress.table import table
+from bladerub.extras.stress.run import table
 from bladerub.io import tables
 from bladerub.plots.scales import Scales
 from bladerub.settings.study import typed

@@ -21,9 +21,8 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.config.read import read
 from bladerub.contact import law
-from bladerub.extras.export.matrices import write_fe_matrices
+from bladerub.extras.export.blade_files import write_fe_matrices, write_sections
 from bladerub.extras.export.mesh_file import write_mesh_file
-from bladerub.extras.export.sections import write_sections
 from bladerub.settings.blade import Mesh
 
 CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"

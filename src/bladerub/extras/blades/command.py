@@ -17,7 +17,7 @@ from bladerub.config.keys import key_of
 from bladerub.config.problems import problems
 from bladerub.config.quantities import converted
 from bladerub.extras.blades import deck, origin, section_table, settings
-from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.origin import Frame
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import base_config, study_folder
 
@@ -123,7 +123,6 @@ def _read_mesh(config: "Config", nominal: float | None) -> "tuple[dict[str, Any]
     from bladerub.blade.build import reduce_meshed
     from bladerub.blade.model import n_interface
     from bladerub.extras.blades import importing
-    from bladerub.extras.blades.kept import keep
     from bladerub.extras.blades.report import mesh_report
 
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
@@ -136,7 +135,7 @@ def _read_mesh(config: "Config", nominal: float | None) -> "tuple[dict[str, Any]
         print(f"bladerub import: reducing a mesh of {nodes} nodes at {speeds} speeds", file=sys.stderr)
     config = config.replaced("blade.length", round(imported.blade.length, 6))
     built = reduce_meshed(imported.blade, config)
-    keep(built, config)
+    importing.keep(built, config)
     figures = mesh_report(source, imported, built, material, nominal) | {"material": material.plain()}
     figures["warnings"] = [*filter(None, [doubt]), *figures["warnings"]]
     return figures, built.reduced
@@ -164,7 +163,7 @@ def _of_material(material: dict[str, float]) -> str:
 def _read_matrices(config: "Config", nominal: float | None) -> "tuple[dict[str, Any], ReducedBlade]":
     """Import and reduce the matrices of `config`; return the figures and the reduced blade."""
     from bladerub.blade.build import reduce_given
-    from bladerub.extras.blades.kept import keep
+    from bladerub.extras.blades.importing import keep
     from bladerub.extras.blades.matrices import import_matrices
     from bladerub.extras.blades.report import matrix_report
 
@@ -186,11 +185,9 @@ def _of_mesh(blade: SimpleNamespace) -> dict[str, str]:
     }
     if hasattr(blade, "sections"):
         hub, *_, tip = blade.sections
-        chords, thicknesses = (
-            f"{1e3 * hub[name]:.4g} to {1e3 * tip[name]:.4g} mm" for name in ("chord", "thickness")
-        )
-        names = f"{len(blade.sections)}, {hub['name']} to {tip['name']}"
-        rows["sections"] = f"{names}: chord {chords}, largest thickness {thicknesses}"
+        names, sizes = f"{len(blade.sections)}, {hub['name']} to {tip['name']}", ("chord", "thickness")
+        chords, widths = (f"{1e3 * hub[name]:.4g} to {1e3 * tip[name]:.4g} mm" for name in sizes)
+        rows["sections"] = f"{names}: chord {chords}, largest thickness {widths}"
     return rows
 
 

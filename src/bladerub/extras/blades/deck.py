@@ -10,11 +10,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from bladerub.extras.blades.frame import FORCES
 from bladerub.extras.cells import UNITS
 from bladerub.settings.blade import Material
 
 MOST_FILES = 100
+_FORCES = dict.fromkeys(("inch", "in", "feet", "ft"), 4.4482216152605)  # N, where a unit is not of N
 _YOUNG = (1e9, 1e12)  # Pa, from plastics to ceramics
 _DENSITY = (500.0, 25e3)  # kg/m³, as blade.material.density of the config
 _POISSON = (0.05, 0.49)
@@ -39,6 +39,7 @@ class Block(NamedTuple):
     keyword: str  # with its star, as ``*SOLID SECTION``
     parameters: dict[str, str]  # without quotes, empty where there is no equals sign
     place: str
+    in_part: bool  # between ``*PART`` and ``*END PART``
     lines: list[Line]
 
 
@@ -50,11 +51,13 @@ def number(text: str) -> float:
 def blocks(path: Path) -> list[Block]:
     """Read the blocks of the deck at `path`; a ValueError names the line of a file that is not there."""
     content: list[Block] = []
+    in_part = False
     for line in _lines(path, path.parent, (path.resolve(),)):
         if line.text.startswith("*"):
             keyword, parameters = _head(line.text)
+            in_part = keyword == "*PART" or (in_part and keyword != "*END PART")
             if keyword != "*INCLUDE":
-                content.append(Block(keyword, parameters, line.place, []))
+                content.append(Block(keyword, parameters, line.place, in_part, []))
         elif content:
             content[-1].lines.append(line)
     return content
@@ -98,21 +101,19 @@ def _lines(path: Path, folder: Path, chain: tuple[Path, ...]) -> Iterator[Line]:
             line, head = Line(head, f"{prefix}line {count}"), ""
             yield line
             if (name := _head(line.text)[1].get("INPUT")) is not None:
-                inner = folder / _file_name(name)
+                inner, inclusion = folder / _file_name(name), f"{line.place}: it includes {name}, which"
                 if not inner.is_file():
-                    raise ValueError(
-                        f"{line.place}: it includes {name}, which is not in the folder of the deck"
-                    )
+                    raise ValueError(f"{inclusion} is not in the folder of the deck")
                 if inner.resolve() in chain or len(chain) >= MOST_FILES:
-                    raise ValueError(f"{line.place}: it includes {name}, which includes itself")
+                    raise ValueError(f"{inclusion} includes itself")
                 yield from _lines(inner, folder, (*chain, inner.resolve()))
 
 
 def material(path: Path, unit: str) -> Material | None:
-    """Read the block ``blade.material`` of the config, in SI units, from the deck at `path`.
+    """Read the block ``blade.material`` of the config, SI, from the deck at `path`; None if there is none.
 
-    `unit` of `UNITS` is that of length; force and mass go with it and the second (mm: N and t). None if the
-    file is no deck, or has no material. Raises ValueError if it cannot be one isotropic material.
+    `unit` of `UNITS` is that of length; force and mass go with it and the second (mm: N and t). Raises
+    ValueError if it cannot be one isotropic material.
     """
     if path.suffix.lower() != ".inp":
         return None
@@ -126,7 +127,7 @@ def material(path: Path, unit: str) -> Material | None:
 def _materials(path: Path) -> dict[str, dict[str, list[str]]]:
     """Lines of *ELASTIC and of *DENSITY by the name of the material, of those that solid sections use."""
     materials, used, name = {}, [], None
-    for keyword, parameters, _, data in blocks(path):
+    for keyword, parameters, *_, data in blocks(path):
         if keyword == "*MATERIAL":
             name = parameters.get("NAME", "").upper()
             if name in materials:
@@ -157,7 +158,7 @@ def _si(name: str, constants: dict[str, list[str]], unit: str) -> Material:
         if not n <= len(values) <= n + 1:  # a temperature may follow
             raise ValueError(f"{keyword} of {name} is {text[:60]}, must be {n} numbers, a temperature aside")
         numbers += values[:n]
-    length, force = UNITS[unit], FORCES.get(unit, 1.0)
+    length, force = UNITS[unit], _FORCES.get(unit, 1.0)
     young, poisson, dense = numbers[0] * force / length**2, numbers[1], numbers[2] * force / length**4
     for text, value, (low, high) in (
         (f"a Young modulus of {numbers[0]:g} is {young:.3g} Pa", young, _YOUNG),

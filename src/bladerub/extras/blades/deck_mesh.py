@@ -45,7 +45,7 @@ def read(path: Path) -> Content:
         if model.kinds.keys() & numbers.keys():
             volume_sets.append(name)
         else:
-            node_sets.setdefault(name, dict.fromkeys(model.nodes_of(numbers)))
+            node_sets.setdefault(name, model.nodes_of(numbers))
     return Content(
         np.array(model.points),
         {kind: np.array(rows) for kind, rows in cells.items()},
@@ -106,17 +106,15 @@ class _Model:
             (("*NSET", "*ELSET"), self._add_set),
             (("*SURFACE",), self._add_surface),
         ):
-            in_part = False
             for block in blocks:
-                in_part = block.keyword == "*PART" or (in_part and block.keyword != "*END PART")
                 if block.keyword in keywords:
-                    add(block, in_part)
+                    add(block)
 
-    def nodes_of(self, elements: Iterable[int]) -> Iterator[int]:
-        """Yield the nodes of `elements`."""
-        return (node for number in elements for node in self.nodes[number])
+    def nodes_of(self, elements: Iterable[int]) -> dict[int, None]:
+        """Nodes of `elements`, in their order."""
+        return dict.fromkeys(node for number in elements for node in self.nodes[number])
 
-    def _add_nodes(self, block: Block, in_part: bool) -> None:
+    def _add_nodes(self, block: Block) -> None:
         for line in block.lines:
             cells = line.cells()
             number, point = _whole(cells[0], line), _coordinates(cells[1:], line)
@@ -126,9 +124,9 @@ class _Model:
             elif self.points[row] != point:
                 raise ValueError(f"{line.place}: node {number} is there twice, in two places")
             if "NSET" in block.parameters:
-                self.node_sets.add(block.parameters["NSET"], [number], in_part, line.place)
+                self.node_sets.add(block.parameters["NSET"], [number], block.in_part, line.place)
 
-    def _add_elements(self, block: Block, in_part: bool) -> None:
+    def _add_elements(self, block: Block) -> None:
         size = _size(block)
         for line, (number, *nodes) in _elements(block, size):
             if absent := [node for node in nodes if node not in self.rows]:
@@ -138,28 +136,28 @@ class _Model:
             if size:
                 self.kinds[number] = _KINDS[size]
             if "ELSET" in block.parameters:
-                self.element_sets.add(block.parameters["ELSET"], [number], in_part, line.place)
+                self.element_sets.add(block.parameters["ELSET"], [number], block.in_part, line.place)
 
-    def _add_set(self, block: Block, in_part: bool) -> None:
+    def _add_set(self, block: Block) -> None:
         parameters = block.parameters
         if block.keyword == "*NSET" and "ELSET" in parameters:
             elements = self.element_sets.members(parameters["ELSET"], block.place)
-            self.node_sets.add(_name(block, "NSET"), self.nodes_of(elements), in_part, block.place)
+            self.node_sets.add(_name(block, "NSET"), self.nodes_of(elements), block.in_part, block.place)
             return
         sets, members = self.element_sets, self.nodes
         if block.keyword == "*NSET":
             sets, members = self.node_sets, self.rows
         name = _name(block, block.keyword[1:])
-        sets.add(name, [], in_part, block.place)
+        sets.add(name, [], block.in_part, block.place)
         for line in block.lines:
             numbers = _range(line) if "GENERATE" in parameters else _members(line, sets)
             present = [number for number in numbers if number in members]
             if len(present) < len(numbers) and "GENERATE" not in parameters:
                 absent = next(number for number in numbers if number not in members)
                 raise ValueError(f"{line.place}: {absent} of the set {name} is not there")
-            sets.add(name, present, in_part, line.place)
+            sets.add(name, present, block.in_part, line.place)
 
-    def _add_surface(self, block: Block, in_part: bool) -> None:
+    def _add_surface(self, block: Block) -> None:
         """Add the nodes of a surface as a set of nodes, unless one has its name."""
         nodes: dict[int, None] = {}
         for line in block.lines:
@@ -177,7 +175,7 @@ class _Model:
                 nodes.update(dict.fromkeys(corners[place] for place in places if place < len(corners)))
         name = _name(block, "NAME")
         if name.upper() not in self.node_sets:
-            self.node_sets.add(name, nodes, in_part, block.place)
+            self.node_sets.add(name, nodes, block.in_part, block.place)
 
 
 def _name(block: Block, parameter: str) -> str:
@@ -231,8 +229,8 @@ def _coordinates(cells: list[str], line: Line) -> list[float]:
 def _range(line: Line) -> range:
     numbers = [_whole(cell, line) for cell in line.cells()]
     if len(numbers) not in (2, 3) or min(numbers[2:], default=1) < 1:
-        requirement = "must be the first, the last and, if any, a step of 1 or more"
-        raise ValueError(f"{line.place}: has {line.text[:60]}, {requirement}")
+        right = "must be the first, the last and, if any, a step of 1 or more"
+        raise ValueError(f"{line.place}: has {line.text[:60]}, {right}")
     first, last, *step = numbers
     return range(first, last + 1, *step)
 
@@ -241,6 +239,6 @@ def _members(line: Line, sets: _Sets) -> list[int]:
     """Numbers of a line, and the members of sets that it names."""
     members: list[int] = []
     for cell in filter(None, line.cells()):
-        is_number = re.fullmatch(r"\d+", cell.rpartition(".")[2])
-        members += [int(cell.rpartition(".")[2])] if is_number else sets.members(cell, line.place)
+        number = cell.rpartition(".")[2]
+        members += [int(number)] if re.fullmatch(r"\d+", number) else sets.members(cell, line.place)
     return members

@@ -53,6 +53,6 @@ def meshed(blade: Blade, n_nodes: int) -> "MeshedBlade":
 def build(config: Config) -> "BuiltBlade":
     """Build the blade, or read it where ``bladerub import`` kept it."""
     from bladerub.blade.build import meshed_blade, reduce_meshed
-    from bladerub.extras.blades.kept import kept
+    from bladerub.extras.blades.importing import kept
 
     return kept(config) or reduce_meshed(meshed_blade(config.blade, n_interface(config)), config)

@@ -1,36 +1,47 @@
-"""From a mesh file or a table of sections to a blade that can be reduced."""
+"""From a mesh file or a table of sections to a blade that can be reduced, and blades kept for their study."""
 
-from dataclasses import dataclass, field
+from contextlib import suppress
+from typing import NamedTuple
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
 
+from bladerub.blade import built
+from bladerub.blade.built import BuiltBlade
+from bladerub.blade.cache import kept_at
+from bladerub.blade.files import is_built
 from bladerub.blade.linear import MOST_UNKNOWNS
-from bladerub.blade.mesh import BladeMesh, MeshedBlade
+from bladerub.blade.mesh import BladeMesh, MeshedBlade, SolidMesh
 from bladerub.blade.model import N_INTERFACE
 from bladerub.blade.surface import boundary_faces, normals
-from bladerub.extras.blade_meshes import EDGES, solid_mesh
-from bladerub.extras.blades import element_quality, mesh_file, origin, profile, section_blade
-from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.section_profile import Profile
+from bladerub.extras.blade_meshes import EDGES, read_built, solid_mesh
+from bladerub.extras.blades import mesh_file, origin, profile, sections
+from bladerub.extras.blades.sections import Profile
 from bladerub.extras.blades.settings import Source
+from bladerub.io.provenance import provenance
 from bladerub.settings.blade import Mesh
+from bladerub.settings.study import Config
 
 _FACING = np.cos(np.pi / 4)
+_SAME_PLACE = 1e-7  # of the extent of the mesh
+_FLAT = 1e-12  # Jacobian, over the cube of the size of the element
+_MOST_OFF = 0.35  # of the edge; the middle of a quarter of a circle is 0.21 off its chord
 
 
-@dataclass(frozen=True)
-class Imported:
+class Imported(NamedTuple):
     """A blade from a mesh file or a table of sections."""
 
     blade: MeshedBlade
-    jacobian_ratio: np.ndarray = field(repr=False)  # (n_elements,), smallest over largest determinant
+    jacobian_ratio: np.ndarray  # (n_elements,), smallest over largest determinant
     volume: float  # m³
     chord: float  # length of the tip's camber line, m
     interface_offset: float  # largest distance of an interface node from its place on that line, m
-    is_raised: bool = False  # whether its elements were linear (see `bladerub.extras.blades.mesh_file.read`)
-    n_unused: int = 0  # nodes of the file that no element uses, which were left out
-    node_sets: dict[str, int] = field(default_factory=dict)  # number of nodes of each set of the file
-    sections: list[Profile] = field(default_factory=list, repr=False)  # of a table, hub to tip
+    is_raised: bool  # whether its elements were linear (see `bladerub.extras.blades.mesh_file.read`)
+    n_unused: int  # nodes of the file that no element uses, which were left out
+    node_sets: dict[str, int]  # number of nodes of each set of the file
+    sections: list[Profile]  # of a table, hub to tip
 
 
 def import_blade(source: Source, counts: Mesh, n_interface: int = N_INTERFACE) -> Imported:
@@ -44,14 +55,29 @@ def import_blade(source: Source, counts: Mesh, n_interface: int = N_INTERFACE) -
         return _import_mesh(source, n_interface)
 
 
+def keep(blade: BuiltBlade, config: Config) -> None:
+    """Keep the blade of `config` in the cache of this user for its study, unless it cannot be written."""
+    with suppress(OSError):
+        built.write(blade, provenance(config.plain()), kept_at(config))
+
+
+def kept(config: Config) -> BuiltBlade | None:
+    """Read the blade of `config` as it is kept; None if it is not, or damaged. Raises as `kept_at`."""
+    with suppress(OSError):
+        path = kept_at(config)
+        if is_built(config, path):
+            return read_built(path)
+    return None
+
+
 def _import_mesh(source: Source, n_interface: int) -> Imported:
     content, frame = mesh_file.read(origin.path(source)), origin.frame(source)
     if 3 * len(content.points) > MOST_UNKNOWNS:
         raise ValueError(f"has {3 * len(content.points)} unknowns; must be {MOST_UNKNOWNS} or fewer")
-    element_quality.check_joined(content.cells)
-    element_quality.check_nodes(content.points, content.cells)
+    check_joined(content.cells)
+    check_nodes(content.points, content.cells)
     mesh, places = solid_mesh(frame.metres(content.points), content.cells)
-    ratio, volume = element_quality.jacobians(mesh)
+    ratio, volume = jacobians(mesh)
     if np.hypot(mesh.points[:, 1], mesh.points[:, 2]).min() <= 0:
         raise ValueError(f"a node lies on the engine axis: is it rotation = {frame.rotation}?")
     faces = boundary_faces(mesh.cells)
@@ -66,7 +92,72 @@ def _import_mesh(source: Source, n_interface: int) -> Imported:
     blade = measured(BladeMesh(mesh, root, tip_nodes, interface), frame, source.tip_cone)
     n_unused = len(content.points) - places.size
     node_sets = {name: nodes.size for name, nodes in content.node_sets.items()}
-    return Imported(blade, ratio, volume, chord, offset, content.is_raised, n_unused, node_sets)
+    return Imported(blade, ratio, volume, chord, offset, content.is_raised, n_unused, node_sets, [])
+
+
+def check_joined(cells: np.ndarray) -> None:
+    """Check that `cells` are one body of elements whose nodes differ; a ValueError says if they are not."""
+    ordered = np.sort(cells, axis=1)
+    collapsed = np.flatnonzero((np.diff(ordered, axis=1) == 0).any(axis=1))
+    if collapsed.size:
+        raise ValueError(
+            f"element {collapsed[0] + 1}: has a node twice ({collapsed.size} such of {len(cells)}); wedges "
+            "written as hexahedra must be split into tetrahedra, and all others too"
+        )
+    sizes = np.unique(connected(cells), return_counts=True)[1]
+    if sizes.size > 1:
+        raise ValueError(
+            f"has {sizes.size} bodies that share no nodes, of {', '.join(map(str, sizes[:4]))} elements; "
+            "must be one blade: merge nodes where they touch, or leave the others out"
+        )
+
+
+def connected(cells: np.ndarray) -> np.ndarray:
+    """Find the number (n,) of the body that each element or face of the nodes `cells` (n, m) is part of."""
+    first = np.repeat(cells[:, 0], cells.shape[1])
+    joined = sparse.coo_array((np.ones(first.size), (first, cells.ravel())), shape=2 * [cells.max() + 1])
+    return connected_components(joined, directed=False)[1][cells[:, 0]]
+
+
+def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
+    """Check that the nodes of `cells` are apart, and mid-side ones in the middle; a ValueError names one."""
+    used = np.unique(cells)
+    outliers = used[~(abs(points[used]) <= origin.FARTHEST).all(axis=1)]
+    if outliers.size:
+        place, limit = ", ".join(f"{x:.4g}" for x in points[outliers[0]]), f"{origin.FARTHEST:g}"
+        raise ValueError(f"node {outliers[0] + 1}: is at {place}; must be finite numbers up to {limit}")
+    extent = np.ptp(points[used], axis=0).max()
+    twins = cKDTree(points[used]).query_pairs(_SAME_PLACE * extent, output_type="ndarray")
+    if len(twins):
+        first, second = np.sort(used[twins[0]]) + 1
+        raise ValueError(f"nodes {first} and {second}: are in one place; merge them ({len(twins)} pairs)")
+    ends = points[cells[:, EDGES[cells.shape[1]]]]
+    sides = points[cells[:, -ends.shape[1] :]]
+    off = np.linalg.norm(sides - ends.mean(axis=2), axis=-1)
+    misplaced = np.argwhere(off > _MOST_OFF * np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1))
+    if len(misplaced):
+        element, edge = misplaced[0]
+        number = cells.shape[1] - ends.shape[1] + edge + 1
+        raise ValueError(
+            f"element {element + 1}: its {number}th node is not in the middle of its edge; nodes must be in "
+            "the order of CalculiX and VTK"
+        )
+
+
+def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
+    """Smallest over largest Jacobian of each element (n_elements,), or a ValueError, and the volume, m³."""
+    points, weights = mesh.mass_quadrature()
+    determinant = np.linalg.det(np.moveaxis(mesh.mapping().DF(points), (0, 1), (-2, -1)))
+    if (determinant < 0).all():
+        raise ValueError("all elements are left-handed; the mesh must not be mirrored, nor count backwards")
+    flat = _FLAT * np.ptp(mesh.points[mesh.cells], axis=1).max(axis=1, keepdims=True) ** 3
+    bad = np.flatnonzero((determinant <= flat).any(axis=1))
+    if bad.size:
+        raise ValueError(
+            f"element {bad[0] + 1}: its Jacobian is zero or negative, it is flat or turned inside out "
+            f"({bad.size} such of {len(determinant)})"
+        )
+    return determinant.min(axis=1) / determinant.max(axis=1), float(np.sum(determinant @ weights))
 
 
 def _nodes(content, points, faces, places, name: str | None, is_tip: bool) -> np.ndarray:
@@ -110,7 +201,7 @@ def facing(points: np.ndarray, faces: np.ndarray, outwards: bool) -> np.ndarray:
             "no part of the surface faces along the radius; do the axes of the blade agree "
             "with rotation, downstream and radial? Or name a node set"
         )
-    part = element_quality.connected(facing_so)
+    part = connected(facing_so)
     height = (sign * np.hypot(points[:, 1], points[:, 2]))[facing_so].max(axis=1)
     return np.unique(facing_so[part == part[np.argmax(height)]])
 
@@ -125,32 +216,27 @@ def _with_middles(content: mesh_file.MeshFile, nodes: np.ndarray) -> np.ndarray:
 
 
 def _import_sections(source: Source, counts: Mesh, n_interface: int) -> Imported:
-    profiles = section_blade.read_profiles(source)
-    shape = section_blade.SectionShape(profiles)
+    profiles = sections.read_profiles(source)
+    shape = sections.SectionShape(profiles)
     mesh = BladeMesh.from_shape(shape, counts, n_interface)
     try:
-        ratio, volume = element_quality.jacobians(mesh.mesh)
+        ratio, volume = jacobians(mesh.mesh)
     except ValueError as error:
         raise ValueError("between its sections the blade crosses itself; give more sections") from error
     evenly = shape.points(np.linspace(0, 1, mesh.interface.size), 0.5, 1.0).T
-    offset = np.linalg.norm(mesh.mesh.points[mesh.interface] - evenly, axis=1).max()
-    chord = profiles[-1].chord
+    offset = float(np.linalg.norm(mesh.mesh.points[mesh.interface] - evenly, axis=1).max())
     blade = measured(mesh, origin.frame(source), source.tip_cone)
-    return Imported(blade, ratio, volume, chord, float(offset), sections=profiles)
+    return Imported(blade, ratio, volume, profiles[-1].chord, offset, False, 0, {}, profiles)
 
 
-def measured(mesh: BladeMesh, frame: Frame, tip_cone: float | None) -> MeshedBlade:
-    """Measure the length of the blade and, if it is not given in degrees, the cone of its tip.
+def measured(mesh: BladeMesh, frame: origin.Frame, tip_cone: float | None) -> MeshedBlade:
+    """Measure length and, if not given in degrees, tip cone of a blade; a ValueError says if it is none.
 
-    A ValueError says if the length is none of a blade. It is that from the clamped nodes to the tip or, where
-    no node is clamped, the range of the radii.
+    The length is that from the clamped nodes to the tip or, without any, the range of the radii.
     """
-    cone = profile.cone(mesh.mesh.points[mesh.tip], tip_cone, frame.downstream_x)
-    blade = MeshedBlade(mesh, cone)
+    blade = MeshedBlade(mesh, profile.cone(mesh.mesh.points[mesh.tip], tip_cone, frame.downstream_x))
     if mesh.root.size:
-        if blade.length <= 0:
-            raise ValueError(
-                f"the tip is no farther from the engine axis than the root ({blade.length:.3g} m)"
-            )
+        if (length := blade.length) <= 0:
+            raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
         frame.check_length(blade.length)
     return blade

@@ -1,35 +1,33 @@
 """From mass and stiffness of another program to a blade that can be reduced."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
-from scipy import sparse
 from scipy.linalg import eigvalsh_tridiagonal
-from scipy.sparse.linalg import ArpackError
+from scipy.sparse import csc_array, eye_array, kron
+from scipy.sparse.linalg import ArpackError, norm
 from scipy.spatial.distance import cdist
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.linear import lowest_modes
-from bladerub.blade.mesh import (
-    LENGTH_TOLERANCE,
-    BladeMesh,
-    FreeCoordinates,
-    MeshedBlade,
-    check_length,
-)
+from bladerub.blade.mesh import LENGTH_TOLERANCE, BladeMesh, FreeCoordinates, MeshedBlade, check_length
 from bladerub.blade.reduction import fit_speeds
 from bladerub.extras.blade_meshes import NodeCloud
 from bladerub.extras.blades import matrix_folder, origin, rigid_body
-from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import measured
 from bladerub.extras.blades.matrix_folder import FIT, MASS, NODES
-from bladerub.extras.blades.origin import MATRIX_UNITS, naming
+from bladerub.extras.blades.origin import Frame, naming
 from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Reduction
 from bladerub.settings.study import Config
 
+_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
+"""N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
+
+As the two are equal, frequencies do not show when the wrong system is named.
+"""
 _PENALTY = 1e4  # diagonal entry over the median, from which on a coordinate is held
 _STEPS = 60  # of Lanczos's method
 _ROUNDING = 1e-10  # of the largest eigenvalue
@@ -37,8 +35,7 @@ _ENERGY = 1e-13  # of what would be there if nothing cancelled; 1e-8 in the firs
 OMEGA_TOLERANCE = 1e-3  # relative, of the speed of the files to that of the config
 
 
-@dataclass(frozen=True)
-class ImportedMatrices:
+class ImportedMatrices(NamedTuple):
     """A blade from the matrices of another program."""
 
     blade: DiscreteBlade
@@ -55,14 +52,14 @@ class ImportedMatrices:
 
 @threadpool_limits.wrap(limits=1)
 def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
-    """Read the matrices of `source` and check that they are of a blade that can be reduced.
+    """Read the matrices of `source`; a BadInput names the file that is not of a blade which can be reduced.
 
     There must be coordinates enough for the modes of the accuracy table at rest, and for those with a clamped
-    interface. A BadInput names the file and what is wrong in it.
+    interface.
     """
     f_max, n_modes = reduction.f_omega_max, reduction.accuracy_modes
     folder, frame = origin.path(source), origin.frame(source)
-    unit = MATRIX_UNITS[source.matrix_units or "SI"]
+    unit = _UNITS[source.matrix_units or "SI"]
     with naming(folder):
         names = matrix_folder.files(folder)
         at_speeds = matrix_folder.speeds(names, fit_speeds(f_max))
@@ -78,7 +75,7 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
                 "modes that are wanted"
             )
 
-    def read(name: str) -> tuple[sparse.csc_array, sparse.csc_array]:
+    def read(name: str) -> tuple[csc_array, csc_array]:
         with naming(names[name]):
             whole = matrix_folder.read_matrix(names[name])
             return whole, _of_free(whole, free, unit, frame.turn)
@@ -125,13 +122,13 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
                 f"frequency, {frequency[0]:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
             )
 
-    change = sparse.linalg.norm(stiffness_max - stiffness_rest)
+    change = norm(stiffness_max - stiffness_rest)
     return ImportedMatrices(
         DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
         unit * _rigid_mass(mass_of_all),
         nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
         _wave_speed(stiffness_rest, mass, layout, free),
-        float(sparse.linalg.norm(stiffness_half - stiffness_rest) / change) if change else 0.0,
+        float(norm(stiffness_half - stiffness_rest) / change) if change else 0.0,
     )
 
 
@@ -151,9 +148,7 @@ def of_length(config: Config) -> DiscreteBlade:
     return imported.blade
 
 
-def _modes(
-    stiffness: sparse.csc_array, mass: sparse.csc_array, n_modes: int
-) -> tuple[np.ndarray, np.ndarray]:
+def _modes(stiffness: csc_array, mass: csc_array, n_modes: int) -> tuple[np.ndarray, np.ndarray]:
     try:
         return lowest_modes(stiffness, mass, n_modes)
     except (np.linalg.LinAlgError, ArpackError) as error:
@@ -181,9 +176,7 @@ def _layout(nodes: matrix_folder.Nodes, frame: Frame, tip_cone: float | None) ->
     return measured(mesh, frame, tip_cone)
 
 
-def _of_free(
-    matrix: sparse.csc_array, free: FreeCoordinates, unit: float, turn: np.ndarray
-) -> sparse.csc_array:
+def _of_free(matrix: csc_array, free: FreeCoordinates, unit: float, turn: np.ndarray) -> csc_array:
     """Rows and columns of the free coordinates in `matrix`, in the blade's axes and SI units."""
     n, n_all = free.free.size, 3 * free.n_nodes
     if matrix.shape[0] not in (n, n_all):
@@ -193,19 +186,17 @@ def _of_free(
         )
     if matrix.shape[0] > n:
         matrix = matrix[free.free][:, free.free]
-    rotation = sparse.kron(sparse.eye_array(n // 3), turn, format="csc")
-    return sparse.csc_array(unit * (rotation @ matrix @ rotation.T))
+    rotation = kron(eye_array(n // 3), turn, format="csc")
+    return csc_array(unit * (rotation @ matrix @ rotation.T))
 
 
-def _rigid_mass(mass: sparse.csc_array) -> float:
+def _rigid_mass(mass: csc_array) -> float:
     """Mass of the rigid body, the mean of the three directions."""
     rigid = np.tile(np.eye(3), (mass.shape[0] // 3, 1))
     return float(np.trace(rigid.T @ (mass @ rigid)) / 3)
 
 
-def _wave_speed(
-    stiffness: sparse.csc_array, mass: sparse.csc_array, layout: MeshedBlade, free: FreeCoordinates
-) -> float:
+def _wave_speed(stiffness: csc_array, mass: csc_array, layout: MeshedBlade, free: FreeCoordinates) -> float:
     """Speed (m/s) of waves in the material: root of the energy of a blade stretched evenly, over its mass."""
     along = layout.mesh.mesh.points[:, 2]
     stretched = np.zeros(3 * len(along))
@@ -216,7 +207,7 @@ def _wave_speed(
     return float(np.sqrt(stretched @ (stiffness @ stretched) / _rigid_mass(mass)))
 
 
-def check_definite(matrix: sparse.csc_array) -> None:
+def check_definite(matrix: csc_array) -> None:
     """Raise ValueError if a symmetric matrix has an entry on its diagonal or an eigenvalue below zero.
 
     Ritz values of Lanczos's method lie between the eigenvalues, so a negative one is proof. Eigenvalues near
@@ -252,7 +243,7 @@ def _ritz_values(product, n: int) -> np.ndarray:
     return eigvalsh_tridiagonal(np.array(alphas), np.array(betas[:-1]))
 
 
-def check_held(stiffness: sparse.csc_array, mode: np.ndarray) -> None:
+def check_held(stiffness: csc_array, mode: np.ndarray) -> None:
     """Raise ValueError if the energy of the lowest `mode` of a stiffness is negative or only rounding."""
     size = np.abs(mode)
     if mode @ (stiffness @ mode) <= _ENERGY * (size @ (abs(stiffness) @ size)):

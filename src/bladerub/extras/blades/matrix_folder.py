@@ -3,8 +3,8 @@
 import io
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 from zipfile import ZipFile
 
 import numpy as np
@@ -13,8 +13,7 @@ from scipy.io import mminfo, mmread
 
 from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.extras import cells
-from bladerub.extras.blades.element_quality import FARTHEST
-from bladerub.extras.blades.origin import refuse_content
+from bladerub.extras.blades.origin import FARTHEST, refuse_content
 from bladerub.extras.cells import Cells
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
@@ -34,19 +33,17 @@ _D_TO_E = bytes.maketrans(b"dD", b"eE")
 _SHOWN = 40  # characters of a line
 _CONVERTED = "docs/how-to/bring_a_blade.md has the script that converts"
 SYMMETRY = 1e-8  # largest difference of two entries that must be equal, over the largest entry
-
 _POSITION = ("x", "y", "z")
 _MARKS = {"interface": MOST_NODES, "clamped": 1, "tip": 1}  # largest value of each
 
 
-@dataclass(frozen=True)
-class Nodes:
+class Nodes(NamedTuple):
     """The content of ``nodes.csv``."""
 
-    points: np.ndarray = field(repr=False)  # (n_nodes, 3), in the unit and axes of the file
+    points: np.ndarray  # (n_nodes, 3), in the unit and axes of the file
     interface: np.ndarray  # (8,), rows of the interface nodes, leading to trailing edge
-    clamped: np.ndarray = field(repr=False)  # rows that are marked so
-    tip: np.ndarray = field(repr=False)
+    clamped: np.ndarray  # rows that are marked so
+    tip: np.ndarray
 
 
 def files(folder: Path) -> dict[str, Path]:
@@ -109,11 +106,10 @@ def read_nodes(path: Path) -> Nodes:
 
 def _marks(table: Cells, name: str) -> np.ndarray:
     marks = table.numbers(name, empty=0.0)
+    right = f"must be a whole number from 0 to {_MARKS[name]}, or nothing"
     for line, mark in zip(table.rows, marks, strict=True):
         if mark not in range(_MARKS[name] + 1):
-            raise ValueError(
-                f"line {line}: {name} = {mark:g}: must be a whole number from 0 to {_MARKS[name]}, or nothing"
-            )
+            raise ValueError(f"line {line}: {name} = {mark:g}: {right}")
     return marks
 
 
@@ -134,9 +130,8 @@ def read_matrix(path: Path) -> sparse.csc_array:
     if rows > MOST_UNKNOWNS:
         raise ValueError(f"is {rows} x {rows}; must have {MOST_UNKNOWNS} rows or fewer")
     if size > limit:
-        raise ValueError(
-            f"takes {size / 1e9:.2g} GB of memory for {rows} rows; must take {limit / 1e9:.2g} GB or less"
-        )
+        need, most = size / 1e9, limit / 1e9
+        raise ValueError(f"takes {need:.2g} GB of memory for {rows} rows; must take {most:.2g} GB or less")
     if raw.dtype.kind not in "iuf":
         raise ValueError(f"holds numbers of the type {raw.dtype}; must be real")
     entries = sparse.coo_array(raw)
@@ -193,10 +188,8 @@ def _check_symmetry(matrix: sparse.csc_array) -> None:
     entries = matrix.tocoo()
     outliers = np.flatnonzero(~(np.abs(entries.data) < LARGEST))
     if outliers.size:
-        place = _entry(entries, outliers[0])
-        raise ValueError(
-            f"its entry {place} is {entries.data[outliers[0]]:g}; must be a finite number below {LARGEST:g}"
-        )
+        place, value = _entry(entries, outliers[0]), entries.data[outliers[0]]
+        raise ValueError(f"its entry {place} is {value:g}; must be a finite number below {LARGEST:g}")
     apart = (matrix - matrix.T).tocoo()
     if apart.nnz and np.abs(apart.data).max() > SYMMETRY * np.abs(entries.data).max():
         if len({*np.sign(entries.col - entries.row)}) < 3:

@@ -41,7 +41,7 @@ def files(source: Source) -> list[str]:
 def build(config: Config) -> "BuiltBlade":
     """Build the blade, or read it where ``bladerub import`` kept it; BadInput if it is not of its length."""
     from bladerub.blade.build import reduce_given
-    from bladerub.extras.blades.kept import kept
+    from bladerub.extras.blades.importing import kept
     from bladerub.extras.blades.matrices import of_length
 
     return kept(config) or reduce_given(of_length(config), config)

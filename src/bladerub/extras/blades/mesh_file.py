@@ -6,8 +6,8 @@ import logging
 import re
 from collections import Counter
 from contextlib import redirect_stderr
-from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,29 +17,24 @@ from bladerub.extras.blades.deck_mesh import Content
 from bladerub.io.errors import package
 
 meshio = package("meshio", "mesh")
-
 log = logging.getLogger(__name__)
 
 _LOOKED_THROUGH = 4000  # bytes, for the first line
 # first words of files, and how their names end
 _STARTS = {"$MESHFORMAT": ".msh", "<VTKFILE": ".vtu"}
 _STARTS |= dict.fromkeys(("*NODE", "*HEADING", "*PART"), ".inp")
-
 _ENDS = {".msh": "$End", ".vtu": "</VTKFile>"}
 _WITH_CENTRES = "hexahedron27"
 _KINDS = ("hexahedron20", "tetra10", "hexahedron", "tetra")  # in meshio; of the last two, quadratic are made
 
 
-@dataclass(frozen=True)
-class MeshFile:
-    """The content of a mesh file.
+class MeshFile(NamedTuple):
+    """The content of a mesh file."""
 
-    `node_sets` are node sets and sets of surface elements of Abaqus, physical groups of surfaces, lines and
-    points of Gmsh, and whole-numbered point data of VTK (nodes where it is not zero).
-    """
-
-    points: np.ndarray = field(repr=False)  # (n_points, 3), in unit and axes of the file, then those added
-    cells: np.ndarray = field(repr=False)  # (n_elements, 20 or 10), in the order of CalculiX and VTK
+    points: np.ndarray  # (n_points, 3), in unit and axes of the file, then those added
+    cells: np.ndarray  # (n_elements, 20 or 10), in the order of CalculiX and VTK
+    # node sets and sets of surface elements of Abaqus, physical groups of surfaces, lines and points of Gmsh,
+    # and whole-numbered point data of VTK (nodes where it is not zero)
     node_sets: dict[str, np.ndarray]
     volume_sets: list[str]  # names of sets of volume elements
     is_raised: bool  # whether elements of 8 or 4 nodes got nodes in the middle of their edges
@@ -160,18 +155,15 @@ def _read_gmsh(path: str) -> meshio.Mesh:
         raise ValueError("is partitioned; unpartition it in Gmsh, and save it again")
     try:
         return meshio.gmsh.read(path)
-    except meshio.ReadError as error:
+    except (meshio.ReadError, ValueError) as error:
         if "parametric" in str(error):
             reason = "nodes have parameters; save in version 4.1 without Mesh.SaveParametric"
-            raise ValueError(reason) from error
-        if str(error):
+        elif "gmsh:physical" in str(error):
+            reason = "elements of some entities are in no physical group; save without Mesh.SaveAll"
+        elif str(error):
             raise
-        reason = "no mesh of Gmsh, damaged, or binary of another machine: save it as text, Mesh.Binary = 0"
-        raise ValueError(reason) from error
-    except ValueError as error:
-        if "gmsh:physical" not in str(error):
-            raise
-        reason = "elements of some entities are in no physical group; save without Mesh.SaveAll"
+        else:
+            reason = "no mesh of Gmsh, damaged, or binary of another machine: save as text, Mesh.Binary = 0"
         raise ValueError(reason) from error
 
 

@@ -1,32 +1,98 @@
-"""Where a blade comes from: the ``blade.source`` block of the config, and faults of its files."""
+"""Where a blade comes from: ``blade.source`` of the config, unit and axes of its files, and their faults.
+
+The blade's frame (`bladerub.blade.geometry`) has x along the engine axis, z along the blade, and a rotation
+that takes z towards y: by the right-hand rule, about -x. A file whose axes are named is therefore only
+turned, never mirrored, with x against its rotation vector. So x points downstream or upstream, depending on
+the blade, and the leading edge may have the smaller or the larger x.
+"""
 
 import errno
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
-from bladerub.extras.blades.frame import Frame
+import numpy as np
+
 from bladerub.extras.blades.settings import Source
+from bladerub.extras.cells import UNITS
 from bladerub.io.errors import BadInput, format_value, is_refused
 from bladerub.io.folders import study_folder
 
-MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
-"""N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
-
-As the two are equal, frequencies do not show when the wrong system is named.
-"""
+LENGTHS = (0.01, 3.0)  # limits of the length of a blade, m, as those of ``blade.length`` of the config
+FARTHEST = 1e9  # coordinate in any unit; beyond 1e154 squares overflow
 MESH_SUFFIXES = (".inp", ".msh", ".vtu")
 CONVERSION = "meshio convert makes .vtu of other meshes, gmsh -3 -order 2 a .msh of a solid (.step, .iges)"
 TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other files are meshes
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Unit (of `UNITS`) and axes of a file; its engine axis passes through its origin.
+
+    Raises ValueError if `downstream` is not along the engine axis or `radial` is not across it.
+    """
+
+    unit: str = "m"
+    rotation: str = "-x"  # about which the blade turns by the right-hand rule
+    downstream: str = "x"  # along which the air flows
+    radial: str = "z"  # from root to tip
+
+    def __post_init__(self):
+        axis = self.rotation[-1]
+        if self.downstream[-1] != axis:
+            right = f"must be along the axis of rotation, {axis} or -{axis}"
+            raise ValueError(f"downstream = {self.downstream}: {right}")
+        if self.radial[-1] == axis:
+            raise ValueError(f"radial = {self.radial}: must not be the axis of rotation")
+
+    @property
+    def turn(self) -> np.ndarray:
+        """Rotation matrix (3, 3) from the file's axes to the blade's."""
+        x, z = -_vector(self.rotation), _vector(self.radial)
+        return np.stack([x, np.cross(z, x), z])
+
+    @property
+    def downstream_x(self) -> int:
+        """1 where the blade's x points downstream, -1 where it points upstream."""
+        return -1 if self.downstream == self.rotation else 1
+
+    def check_length(self, length: float) -> None:
+        """Check that `length` (m) is one of a blade, or raise ValueError: the unit is wrong."""
+        shortest, longest = LENGTHS
+        if not shortest <= length <= longest:
+            limits = f"must be from {shortest:g} to {longest:g} m"
+            raise ValueError(f"with the unit {self.unit} the blade is {length:.4g} m long; {limits}")
+
+    def metres(self, points: np.ndarray) -> np.ndarray:
+        """Convert points (n, 3) of the file to the blade's frame, m."""
+        return UNITS[self.unit] * points @ self.turn.T
+
+    def cartesian(self, z: np.ndarray, r: np.ndarray, theta: np.ndarray) -> np.ndarray:
+        """Turn cylindrical coordinates of the file (n,) into its Cartesian ones (n, 3).
+
+        `z` counts along the engine axis in the positive direction of its letter, whichever sign `rotation`
+        has; `theta` (rad) counts about that direction by the right-hand rule, from `radial` on. So the blade
+        turns towards larger angles where `rotation` is x, y or z, to smaller ones where it is -x, -y or -z.
+        """
+        axis, radial = _vector(self.rotation[-1]), _vector(self.radial)
+        around = np.cross(axis, radial)
+        z, r, theta = z[:, None], r[:, None], theta[:, None]
+        return z * axis + r * (np.cos(theta) * radial + np.sin(theta) * around)
+
+
+def _vector(axis: str) -> np.ndarray:
+    return (-1.0 if axis.startswith("-") else 1.0) * np.eye(3)["xyz".index(axis[-1])]
+
+
 _OF_FRAME = tuple(asdict(Frame()))
+# keys that go with a kind of source, beside ``tip_cone`` and those of the frame
 _KEYS = {
     "matrices": ("matrices", "matrix_units", "omega_max"),
     "a mesh": ("file", "root_set", "tip_set"),
     "a table of sections": ("file", "angle_unit"),
 }
-"""Keys that go with a kind of source, beside ``tip_cone`` and those of the frame."""
 
 
 def path(source: Source) -> Path:
@@ -45,11 +111,7 @@ def is_table(source: Source) -> bool:
 
 
 def check(source: Source) -> None:
-    """Check that the keys of a source go together.
-
-    A ValueError begins with the key if neither ``file`` nor ``matrices`` is there, of what does not go with
-    this kind of source, and of a frame that cannot be.
-    """
+    """Check that the keys of a source go together; a ValueError begins with the key that does not."""
     if not (source.matrices or source.file):
         raise ValueError("file: missing; must be given, or matrices in its place")
     kind = "matrices" if source.matrices else "a table of sections" if is_table(source) else "a mesh"

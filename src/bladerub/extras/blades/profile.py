@@ -1,12 +1,8 @@
 """Profiles in the plane, their camber lines, and the interface nodes on that of the tip of a blade."""
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 from scipy.spatial.distance import cdist
-
-from bladerub.blade.model import N_INTERFACE
 
 _STATIONS = np.linspace(0.06, 0.94, 45)  # of the chord; further out the normal may meet the edge itself
 _DEGREE = 5
@@ -75,19 +71,10 @@ def crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> t
     return places @ direction / (direction @ direction), np.flatnonzero(met) + share
 
 
-class Interface(NamedTuple):
-    """Interface nodes of a tip."""
-
-    nodes: np.ndarray  # (n_nodes,), leading to trailing edge
-    chord: float  # length of the camber line, m
-    offset: float  # largest distance of a node from its place on the camber line, m
-
-
 def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
-    """Half angle (rad) of the cone that the tip lies on, positive where it widens with x.
+    """Half angle (rad) of the tip's cone, positive where it widens with x, fitted to `points` (n, 3) there.
 
-    It is fitted to the `points` (n, 3) of the tip unless given in `degrees`, positive where the cone widens
-    downstream; `downstream_x` is 1 where x points downstream, else -1.
+    If it is given, in `degrees`, that is positive where the cone widens downstream.
     """
     if degrees is not None:
         return downstream_x * float(np.deg2rad(degrees))
@@ -97,13 +84,13 @@ def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
 
 
 def interface(
-    points: np.ndarray, faces: np.ndarray, downstream_x: int, n_nodes: int = N_INTERFACE
-) -> Interface:
-    """Choose `n_nodes` interface nodes, evenly by arc length along the camber line of the tip.
+    points: np.ndarray, faces: np.ndarray, downstream_x: int, n_nodes: int
+) -> tuple[np.ndarray, float, float]:
+    """Choose `n_nodes` interface nodes, leading to trailing edge, evenly along the camber line of the tip.
 
-    The tip, the `faces` of the mesh there, is unrolled about the engine axis. The leading edge has the
-    smaller x where `downstream_x` is 1, else the larger. A ValueError says if the tip is no profile with two
-    sides and so many nodes, or too coarse.
+    The tip, the `faces` of the mesh there, is unrolled about the engine axis. Also returns the length of the
+    camber line and the largest distance of a node from its place on it, m. A ValueError says if the tip is no
+    profile with two sides and so many nodes, or too coarse.
     """
     nodes = np.unique(faces)
     if nodes.size < n_nodes:
@@ -126,7 +113,7 @@ def interface(
             f"the tip is too coarse: an interface node would be {offset:.3g} m off its place on a camber "
             f"line of {arc[-1]:.3g} m"
         )
-    return Interface(nodes[indices], float(arc[-1]), float(offset))
+    return nodes[indices], float(arc[-1]), float(offset)
 
 
 def _unrolled(points: np.ndarray, y: float, z: float) -> np.ndarray:

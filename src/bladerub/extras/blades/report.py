@@ -18,7 +18,7 @@ from bladerub.extras.blade_meshes import EDGES, NAMES
 from bladerub.extras.blades import origin
 from bladerub.extras.blades.importing import Imported
 from bladerub.extras.blades.matrices import ImportedMatrices
-from bladerub.extras.blades.section_profile import EDGE_SHARE
+from bladerub.extras.blades.sections import EDGE_SHARE
 from bladerub.extras.blades.settings import Source
 from bladerub.settings.blade import Material
 
@@ -38,24 +38,20 @@ HALF_SPEED_CHANGE = (0.15, 0.35)  # a quarter, as centrifugal forces grow with t
 
 
 def mesh_report(
-    source: Source,
-    imported: Imported,
-    built: BuiltBlade,
-    material: Material,
-    nominal_speed: float | None = None,
+    source: Source, imported: Imported, built: BuiltBlade, material: Material, nominal: float | None = None
 ) -> dict[str, Any]:
     """Figures of a blade from a mesh or sections, and warnings, ready for JSON; SI units.
 
-    `nominal_speed` is that of its rotor, 1/min, if it is known: a wheel bears it.
-    ``error_eq2`` and ``error_reduced_model`` hold for each mode the largest relative error of the frequency
-    over the speeds of the accuracy table: that of eq. (2) alone, and with the reduction.
+    The `nominal` speed is that of its rotor, 1/min, if it is known: a wheel bears it. ``error_eq2`` and
+    ``error_reduced_model`` hold for each mode the largest relative error of the frequency over the speeds of
+    the accuracy table: that of eq. (2) alone, and with the reduction.
     """
     mesh = imported.blade.mesh
     figures = {
         "file": str(origin.path(source)),
         "element": NAMES[mesh.mesh.cells.shape[1]],
         "elements": len(mesh.mesh.cells),
-        **_of_blade(source, imported.blade, built, nominal_speed),
+        **_of_blade(source, imported.blade, built, nominal),
         "elements_root_to_tip": spanwise_elements(mesh),
         "node_sets": imported.node_sets,
         "root_nodes": int(mesh.root.size),
@@ -67,34 +63,23 @@ def mesh_report(
         "centrifugal_displacement": float(np.linalg.norm(built.static_displacement[-1], axis=1).max()),
     }
     if imported.sections:
-        figures["sections"] = [
-            {
-                "name": section.name,
-                "mean_radius": section.radius,
-                "chord": section.chord,
-                "thickness": section.thickness,
-                "cut_leading_edge": section.cut[0],
-                "cut_trailing_edge": section.cut[1],
-            }
-            for section in imported.sections
-        ]
-    warnings = [*_warn_of_mesh(figures, imported, source), *doubts(built.accuracy, nominal_speed)]
+        names = ("name", "mean_radius", "chord", "thickness", "cut_leading_edge", "cut_trailing_edge")
+        rows = ((name, *sizes, *cut) for name, _, *sizes, cut in imported.sections)
+        figures["sections"] = [dict(zip(names, row, strict=True)) for row in rows]
+    warnings = [*_warn_of_mesh(figures, imported, source), *doubts(built.accuracy, nominal)]
     return figures | {"warnings": warnings}
 
 
 def matrix_report(
-    source: Source, imported: ImportedMatrices, built: BuiltBlade, nominal_speed: float | None = None
+    source: Source, imported: ImportedMatrices, built: BuiltBlade, nominal: float | None = None
 ) -> dict[str, Any]:
-    """Figures of a blade from matrices, and warnings, as `mesh_report`.
-
-    ``error_eq2`` is none where all files are of the speeds of the fit, where eq. (2) is exact.
-    """
+    """Figures and warnings, as `mesh_report`, of matrices; no ``error_eq2`` of speeds of the fit alone."""
     layout = imported.blade.layout
     points = layout.mesh.mesh.points
     speeds = list(imported.blade.stiffness)
     figures = {
         "folder": str(origin.path(source)),
-        **_of_blade(source, layout, built, nominal_speed),
+        **_of_blade(source, layout, built, nominal),
         "clamped_nodes": int(layout.mesh.root.size),
         "interface": points[layout.mesh.interface].tolist(),
         "length_is_measured": imported.is_rooted,
@@ -105,36 +90,34 @@ def matrix_report(
         "wave_speed": imported.wave_speed,
         "stiffness_half_way": imported.half_speed_change,
     }
-    warnings = [*_warn_of_matrices(figures, imported, source), *doubts(built.accuracy, nominal_speed)]
+    warnings = [*_warn_of_matrices(figures, imported, source), *doubts(built.accuracy, nominal)]
     if len(speeds) == 3:
         figures["error_eq2"] = None
     return figures | {"warnings": warnings}
 
 
-def _of_blade(
-    source: Source, layout: MeshedBlade, built: BuiltBlade, nominal_speed: float | None
-) -> dict[str, Any]:
+def _of_blade(source: Source, layout: MeshedBlade, built: BuiltBlade, nominal: float | None) -> dict:
     """Figures of the nodes, of the frequencies and of the reduced model."""
     points, table = layout.mesh.mesh.points, built.accuracy
     errors = errors_by_mode(table)
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     rpm = 60 * built.reduced.f1_hz
+    extents = dict(zip("xyz", points.T, strict=True)) | {"radius": np.hypot(points[:, 1], points[:, 2])}
     return {
         "nodes": len(points),
         "unknowns": 3 * (len(points) - layout.mesh.root.size),
         "tip_nodes": int(layout.mesh.tip.size),
-        "extents": _extents(points),
+        "extents": {name: [float(value.min()), float(value.max())] for name, value in extents.items()},
         "length": layout.length,
         "tip_cone_degrees": origin.frame(source).downstream_x * float(np.rad2deg(layout.tip_cone)),
         "f1_hz": float(built.frequency[0]),
         "tip_stagger_degrees": _stagger(built.reduced),
         "tip_lean": tip_lean(built.reduced).tolist(),
         "crossings": [
-            {"order": order, "f_omega": f_omega, "rpm": f_omega * rpm}
-            for order, f_omega in _crossings(built.reduced)
+            {"order": order, "f_omega": x, "rpm": x * rpm} for order, x in _crossings(built.reduced)
         ],
-        "nominal_speed": nominal_speed,
-        "nominal_f_omega": nominal_speed and nominal_speed / rpm,
+        "nominal_speed": nominal,
+        "nominal_f_omega": nominal and nominal / rpm,
         "campbell_ratio": float(first[-1] / first[0]),
         "f_omega_max": built.reduced.f_omega_max,
         "lowest_frequency": float(table.f_fe.min()),
@@ -159,12 +142,6 @@ def spanwise_elements(mesh: BladeMesh) -> int:
     graph = sparse.coo_array((np.ones(len(edges)), tuple(edges.T)), shape=(n_nodes, n_nodes)).tocsr()
     steps = dijkstra(graph, directed=False, indices=mesh.root, unweighted=True, min_only=True)
     return int(steps[mesh.tip].min())
-
-
-def _extents(points: np.ndarray) -> dict[str, list[float]]:
-    """Give the ends of the ranges of the coordinates and of the radius of `points` (n, 3), m."""
-    values = dict(zip("xyz", points.T, strict=True)) | {"radius": np.hypot(points[:, 1], points[:, 2])}
-    return {name: [float(value.min()), float(value.max())] for name, value in values.items()}
 
 
 def _warn_of_frame(figures: dict[str, Any], source: Source, points: np.ndarray) -> Iterator[str]:

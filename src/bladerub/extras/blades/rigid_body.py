@@ -9,8 +9,8 @@ Translations show whether the coordinates are x, y, z node by node, rotations wh
 from collections.abc import Callable
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import spsolve
+from scipy.sparse import csc_array, csr_array, diags_array
+from scipy.sparse.linalg import norm, spsolve
 from scipy.spatial import cKDTree
 
 _UNEQUAL = 1e-3  # mass of a node in two directions, over the sum of its entries
@@ -24,9 +24,9 @@ _MOST_SOLVED = 10_000  # nodes
 _NAMED = 4  # rows in a message
 
 
-def check_joined(mass: sparse.csc_array, stiffness: sparse.csc_array) -> None:
+def check_joined(mass: csc_array, stiffness: csc_array) -> None:
     """Raise ValueError if coordinates are joined to no other, unless a penalty makes them stiffest of all."""
-    joined = sparse.csc_array(abs(stiffness) - sparse.diags_array(abs(stiffness).diagonal())).sum(axis=0) > 0
+    joined = csc_array(abs(stiffness) - diags_array(abs(stiffness).diagonal())).sum(axis=0) > 0
     with np.errstate(divide="ignore", invalid="ignore"):
         square = stiffness.diagonal() / mass.diagonal()  # of the frequency of each coordinate alone
     is_penalty = (mass.diagonal() > 0) & (square > square[joined].max(initial=0.0))
@@ -39,16 +39,16 @@ def check_joined(mass: sparse.csc_array, stiffness: sparse.csc_array) -> None:
         )
 
 
-def check_mass(mass: sparse.csc_array, rows: np.ndarray) -> None:
+def check_mass(mass: csc_array, rows: np.ndarray) -> None:
     """Raise ValueError if the mass of nodes differs by direction, or acts between directions."""
     _check_coordinates(mass, _unequal, rows, "differs by direction, or acts between directions,")
 
 
-def check_same_nodes(mass: sparse.csc_array, stiffness: sparse.csc_array, rows: np.ndarray) -> None:
+def check_same_nodes(mass: csc_array, stiffness: csc_array, rows: np.ndarray) -> None:
     """Raise ValueError if the mass joins nodes that the stiffness does not: it has another order."""
     pairs, joined = _pairs(mass), _pairs(stiffness)
     outside = (pairs - pairs * joined.astype(bool)).tocoo()
-    if sparse.linalg.norm(outside) > _UNEQUAL * sparse.linalg.norm(pairs):
+    if norm(outside) > _UNEQUAL * norm(pairs):
         worst = int(np.argmax(outside.data))
         both = sorted((rows[outside.row[worst]], rows[outside.col[worst]]))
         raise ValueError(
@@ -57,25 +57,19 @@ def check_same_nodes(mass: sparse.csc_array, stiffness: sparse.csc_array, rows: 
         )
 
 
-def check_change(stiffness: sparse.csc_array, stiffness_rest: sparse.csc_array, rows: np.ndarray) -> None:
+def check_change(stiffness: csc_array, stiffness_rest: csc_array, rows: np.ndarray) -> None:
     """Raise ValueError if a stiffness at speed is far from that at rest at nodes: other order or unit."""
-    change, norm = (
-        sparse.linalg.norm(_pairs(matrix), axis=1) for matrix in (stiffness - stiffness_rest, stiffness_rest)
-    )
-    bad = change > _CHANGED * norm
+    change, size = (norm(_pairs(matrix), axis=1) for matrix in (stiffness - stiffness_rest, stiffness_rest))
+    bad = change > _CHANGED * size
     if bad.any():
         raise ValueError(
-            f"differs from stiffness_rest by up to {(change / norm).max():.0%} at {_named(rows[bad])}; both "
+            f"differs from stiffness_rest by up to {(change / size).max():.0%} at {_named(rows[bad])}; both "
             "must have the same order and units, as rotation changes hundredths"
         )
 
 
 def check_stiffness(
-    stiffness: sparse.csc_array,
-    points: np.ndarray,
-    rows: np.ndarray,
-    clamped: np.ndarray,
-    interface: np.ndarray,
+    stiffness: csc_array, points: np.ndarray, rows: np.ndarray, clamped: np.ndarray, interface: np.ndarray
 ) -> None:
     """Raise ValueError if a translation leaves forces at nodes away from the clamped ones.
 
@@ -83,7 +77,7 @@ def check_stiffness(
     Nodes that are joined to all others, as in a condensed matrix, tell nothing.
     """
 
-    def away(matrix: sparse.csc_array) -> np.ndarray:
+    def away(matrix: csc_array) -> np.ndarray:
         pairs = _pairs(matrix)
         held = _held(matrix, pairs) & (np.diff(pairs.indptr) < len(points))
         is_away = np.isin(np.arange(len(points)), interface)
@@ -95,16 +89,16 @@ def check_stiffness(
     _check_coordinates(stiffness, away, rows, fault)
 
 
-def check_places(stiffness: sparse.csc_array, points: np.ndarray, rows: np.ndarray) -> None:
+def check_places(stiffness: csc_array, points: np.ndarray, rows: np.ndarray) -> None:
     """Raise ValueError if a rotation leaves forces where a translation leaves none: nodes are elsewhere."""
     pairs = _pairs(stiffness)
     free = ~_held(stiffness, pairs)
     bad = np.flatnonzero(free & _turned(stiffness, pairs, points))
     if bad.size:
-        cause = (
-            _misplaced(stiffness, pairs, points, free, bad, rows)
-            or "must have the order of the matrices: has the solver renumbered the nodes, are axes exchanged?"
+        order = (
+            "must have the order of the matrices: has the solver renumbered the nodes, are axes exchanged?"
         )
+        cause = _misplaced(stiffness, pairs, points, free, bad, rows) or order
         raise ValueError(
             f"{cause} (a rotation of the rigid blade leaves forces in stiffness_rest at {_named(rows[bad])}, "
             f"of {np.count_nonzero(free)} that touch no clamped node)"
@@ -118,7 +112,7 @@ def _misplaced(stiffness, pairs, points, free, bad, rows) -> str | None:
     coordinates = (3 * bad[:, None] + np.arange(3)).ravel()
     motion = _rotations(points)
     motion[coordinates] = 0
-    block = sparse.csc_array(stiffness[coordinates][:, coordinates])
+    block = csc_array(stiffness[coordinates][:, coordinates])
     x_turn, y_turn, z_turn = -spsolve(block, (stiffness @ motion)[coordinates]).T.reshape(3, -1, 3)
     moved = points.copy()
     moved[bad] = points.mean(axis=0) + np.stack([-y_turn[:, 2], -z_turn[:, 0], -x_turn[:, 1]], axis=1)
@@ -126,31 +120,30 @@ def _misplaced(stiffness, pairs, points, free, bad, rows) -> str | None:
         return None
     tolerance = _APART * _reach(pairs, points)
     wrong = bad[np.linalg.norm(moved[bad] - points[bad], axis=1) > tolerance[bad]]
-    to_listed = cKDTree(points[wrong]).query(moved[wrong])[0]
     cure = "exchanged" if wrong.size == 2 else "in another order"
-    if (to_listed > tolerance[wrong]).any():
+    if (cKDTree(points[wrong]).query(moved[wrong])[0] > tolerance[wrong]).any():
         cure = "in another place"
     return f"{_listed(rows[wrong])}: must be {cure}"
 
 
-def _pairs(matrix: sparse.csc_array) -> sparse.csr_array:
+def _pairs(matrix: csc_array) -> csr_array:
     """Norms (n, n) of the 3 x 3 blocks of pairs of nodes."""
     entries = matrix.tocoo()
     n = matrix.shape[0] // 3
-    squares = sparse.csr_array((entries.data**2, (entries.row // 3, entries.col // 3)), shape=(n, n))
+    squares = csr_array((entries.data**2, (entries.row // 3, entries.col // 3)), shape=(n, n))
     squares.eliminate_zeros()
     return squares.sqrt()
 
 
-def _reach(pairs: sparse.csr_array, points: np.ndarray) -> np.ndarray:
+def _reach(pairs: csr_array, points: np.ndarray) -> np.ndarray:
     """Distance (n,) from each node to the farthest that it is joined to."""
     return _lengths(pairs, points).max(axis=1).toarray().ravel()
 
 
-def _lengths(pairs: sparse.csr_array, points: np.ndarray) -> sparse.csr_array:
+def _lengths(pairs: csr_array, points: np.ndarray) -> csr_array:
     rows = np.repeat(np.arange(len(points)), np.diff(pairs.indptr))
     lengths = np.linalg.norm(points[rows] - points[pairs.indices], axis=1)
-    return sparse.csr_array((lengths, pairs.indices, pairs.indptr), shape=pairs.shape)
+    return csr_array((lengths, pairs.indices, pairs.indptr), shape=pairs.shape)
 
 
 def _rotations(points: np.ndarray) -> np.ndarray:
@@ -159,23 +152,23 @@ def _rotations(points: np.ndarray) -> np.ndarray:
     return np.stack([np.cross(axis, arms).ravel() for axis in np.eye(3)], axis=1)
 
 
-def _forces(matrix: sparse.csc_array, motion: np.ndarray) -> np.ndarray:
+def _forces(matrix: csc_array, motion: np.ndarray) -> np.ndarray:
     """Norm (n,) of the forces at each node after the motions (3n, 3)."""
     return np.linalg.norm((matrix @ motion).reshape(-1, 9), axis=1)
 
 
-def _held(stiffness: sparse.csc_array, pairs: sparse.csr_array) -> np.ndarray:
+def _held(stiffness: csc_array, pairs: csr_array) -> np.ndarray:
     """Whether a translation leaves forces at each node (n,)."""
     return _forces(stiffness, np.tile(np.eye(3), (pairs.shape[0], 1))) > _HELD * pairs.sum(axis=1)
 
 
-def _turned(stiffness: sparse.csc_array, pairs: sparse.csr_array, points: np.ndarray) -> np.ndarray:
+def _turned(stiffness: csc_array, pairs: csr_array, points: np.ndarray) -> np.ndarray:
     """Whether a rotation leaves forces at each node (n,)."""
     unbalanced = (pairs * _lengths(pairs, points)).sum(axis=1)  # the forces if nothing cancelled
     return (unbalanced > 0) & (_forces(stiffness, _rotations(points)) > _TURNED * unbalanced)
 
 
-def _unequal(mass: sparse.csc_array) -> np.ndarray:
+def _unequal(mass: csc_array) -> np.ndarray:
     """Whether the mass of each node (n,) is not that of a body; of nodes joined to all others it may be."""
     pairs = _pairs(mass)
     sums = (mass @ np.tile(np.eye(3), (pairs.shape[0], 1))).reshape(-1, 3, 3)
@@ -185,10 +178,7 @@ def _unequal(mass: sparse.csc_array) -> np.ndarray:
 
 
 def _check_coordinates(
-    matrix: sparse.csc_array,
-    is_bad: Callable[[sparse.csc_array], np.ndarray],
-    rows: np.ndarray,
-    fault: str,
+    matrix: csc_array, is_bad: Callable[[csc_array], np.ndarray], rows: np.ndarray, fault: str
 ) -> None:
     """Raise ValueError of the `fault` of bad nodes; it says whether all x come first, then all y, all z."""
     bad = is_bad(matrix)

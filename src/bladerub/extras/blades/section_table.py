@@ -6,19 +6,19 @@ names the section, hub to tip; other columns are ignored. How cells are separate
 
 - Points of the surface: x, y and z of one side (`x1`, `y1`, `z1`) and of the other (`x2`, `y2`, `z2`).
 - As compressor rotors are published: axial position `z` and radius `r`, and at both the angles `theta1` and
-  `theta2` of the two sides (`bladerub.extras.blades.frame.Frame.cartesian` defines their origin and sign).
+  `theta2` of the two sides (`bladerub.extras.blades.origin.Frame.cartesian` defines their origin and sign).
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from itertools import groupby
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from bladerub.extras import cells
 from bladerub.extras.blades import origin
-from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.origin import Frame
 from bladerub.extras.cells import ANGLE_UNITS, Cells
 
 POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
@@ -26,13 +26,12 @@ CYLINDRICAL = ("z", "r", "theta1", "theta2")
 STATIONS = (5, 2000)  # fewest and most of a section
 
 
-@dataclass(frozen=True)
-class Section:
+class Section(NamedTuple):
     """A section of a table."""
 
     name: str
-    lines: np.ndarray = field(repr=False)  # (n,), line of the file of each station
-    points: np.ndarray = field(repr=False)  # (2, n, 3), both sides from the leading edge, blade's frame, m
+    lines: np.ndarray  # (n,), line of the file of each station
+    points: np.ndarray  # (2, n, 3), both sides from the leading edge, blade's frame, m
 
 
 def read(path: Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
@@ -51,17 +50,15 @@ def read(path: Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
                 f"{sections[name].lines[0]}"
             )
         values = {column: of_all[rows] for column, of_all in numbers.items()}
-        sections[name] = _section(name, lines[rows], values, frame, angle_unit)
+        label = f"section {name} (line {lines[rows[0]]})"
+        sections[name] = Section(name, lines[rows], _points(label, lines[rows], values, frame, angle_unit))
     if len(sections) < 2:
         raise ValueError(f"has {len(sections)} section; must have two or more, from hub to tip")
     return [*sections.values()]
 
 
 def read_cells(path: Path) -> tuple[Cells, tuple[str, ...]]:
-    """Read a table and the columns of numbers of its form.
-
-    A ValueError names the line or says what is no table of sections.
-    """
+    """Read a table and the columns of numbers of its form; a ValueError names a line, or what is missing."""
     origin.check_file(path)
     table = cells.read(path)
     columns = {name.lower() for name in table.names}
@@ -77,15 +74,12 @@ def read_cells(path: Path) -> tuple[Cells, tuple[str, ...]]:
     return table, form
 
 
-def _section(
-    name: str, lines: np.ndarray, values: Mapping[str, np.ndarray], frame: Frame, angle_unit: str
-) -> Section:
-    label = f"section {name} (line {lines[0]})"
+def _points(label: str, lines: np.ndarray, values: Mapping, frame: Frame, angle_unit: str) -> np.ndarray:
+    """Points (2, n, 3) of both sides of the section `label` of these `lines` of the file, m."""
     minimum, maximum = STATIONS
     if not minimum <= lines.size <= maximum:
-        raise ValueError(
-            f"{label}: has {lines.size} stations; must have {minimum} to {maximum} in successive rows"
-        )
+        limits = f"must have {minimum} to {maximum} in successive rows"
+        raise ValueError(f"{label}: has {lines.size} stations; {limits}")
     if "r" in values:
         z, radius = values["z"], values["r"]
         if (inside := radius <= 0).any():
@@ -99,4 +93,4 @@ def _section(
         sides = [frame.cartesian(z, radius, theta) for theta in angles]
     else:
         sides = [np.stack([values[axis] for axis in side], axis=1) for side in (POINTS[:3], POINTS[3:])]
-    return Section(name, lines, np.stack([frame.metres(side) for side in sides]))
+    return np.stack([frame.metres(side) for side in sides])

@@ -18,10 +18,9 @@ TRACK_AREA = 0.0194115063  # m²
 
 
 def tip_stiffness(blade: ReducedBlade) -> float:
-    """Evaluate the static stiffness of the tip at rest, N/m.
+    """Evaluate the static stiffness of the tip at rest, N/m, under a force spread evenly over its nodes.
 
-    The force is spread evenly over the interface nodes, in the direction in which they are most compliant on
-    average: that is across the blade, whatever its stagger and flow path.
+    It is along the direction in which they are most compliant on average: across the blade, at any stagger.
     """
     spread = np.zeros((len(blade.mass), 3))
     n = blade.n_interface
@@ -37,16 +36,9 @@ def track_area(blade: ReducedBlade) -> float:
 
 
 def contact_scale(blade: ReducedBlade) -> dict[str, float]:
-    """Return ``contact.scale`` of the config, which scales the contact of the stand-in to `blade`.
-
-    ``length``, ``modulus`` and ``time`` multiply the lengths, the unit of the moduli and the largest time
-    step.
-    """
+    """Return ``contact.scale`` of the config, which scales the contact of the stand-in to `blade`."""
     length = blade.length / LENGTH
     # E modulus_unit area / thickness is the stiffness of all elements of a track together
     stiffness = tip_stiffness(blade) / TIP_STIFFNESS
-    return {
-        "length": length,
-        "modulus": stiffness * length * TRACK_AREA / track_area(blade),
-        "time": F1_HZ / blade.f1_hz,
-    }
+    modulus = stiffness * length * TRACK_AREA / track_area(blade)
+    return {"length": length, "modulus": modulus, "time": F1_HZ / blade.f1_hz}

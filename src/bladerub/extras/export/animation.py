@@ -32,9 +32,6 @@ def animate(
 
     The worn depth (mean of the nodes) and the radial displacement of node 1 of each blade are drawn on the
     same scale, so magnified that the largest of them is seen; the shape of the casing is not drawn.
-    `attributes` are those of the run.
-
-    Raises `OSError` if it cannot be written.
     """
     case, depth = CoatingCase.described(attributes), recording.wear.mean(axis=1)
     radial = recording.coordinates[:, :, :3] @ blade.radial_direction[0]  # of node 1, whose three come first

@@ -28,18 +28,17 @@ def write(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any]
     if options.fe_matrices:
         return _write_fe_matrices(options, config)
 
-    from bladerub.extras.export import calculix, matrices, mesh_file
-    from bladerub.extras.export.vtu import read_mesh
+    from bladerub.extras.export import blade_files, mesh_file
 
     stored_blade, config = inputs.read_blade(options, config)
     path, blade = stored_blade.path, stored_blade.reduced
     with refused(OSError):
-        mesh = read_mesh(stored_blade.mesh_path, blade)
+        mesh = mesh_file.read_mesh(stored_blade.mesh_path, blade)
         needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")
         if needs_elements and not len(mesh["cells"]):
             raise BadInput(f"{path}: is of matrices, without elements; write --mesh with .vtu or --matrices")
         if options.matrices:
-            matrices.write_matrices(options.matrices, blade)
+            blade_files.write_matrices(options.matrices, blade)
             files = [options.matrices]
         elif options.mesh:
             sets = {name: mesh[f"{name}_nodes"] for name in ("root", "tip", "interface")}
@@ -49,14 +48,14 @@ def write(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any]
         else:
             body = (mesh["points"], mesh["cells"], mesh["root_nodes"], config.blade.material)
             speeds = _speeds(options, blade.f_omega_max, blade.f1_hz)
-            files = calculix.write_decks(options.calculix, speeds, blade.f1_hz, *body)
+            files = blade_files.write_decks(options.calculix, speeds, blade.f1_hz, *body)
     return _about(files, mesh["points"], mesh["cells"], len(blade.mass))
 
 
 def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any], str]:
     """Compute the finite element matrices of the blade of the config again, and write them."""
     folder = options.fe_matrices
-    if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise BadInput(f"--fe-matrices {folder}: is there already, must be a new or an empty folder")
     source = config.blade.plugged("source")
     if source and source.plugged("matrices"):
@@ -69,7 +68,7 @@ def _write_fe_matrices(options: argparse.Namespace, config: "Config") -> tuple[d
     from bladerub.blade.discrete import by_finite_elements
     from bladerub.blade.model import n_interface
     from bladerub.blade.reduction import fit_speeds
-    from bladerub.extras.export.matrices import write_fe_matrices
+    from bladerub.extras.export.blade_files import write_fe_matrices
 
     f1_hz = first_frequency(config) if options.speeds else 0.0
     speeds = sorted(_speeds(options, f_max, f1_hz))
@@ -118,17 +117,15 @@ def write_sections(options: argparse.Namespace, config: "Config") -> tuple[dict[
     """Write the table that the command line asks for; return its size, also in words."""
     path = options.sections
     if source := config.blade.plugged("source"):
-        origin = ", ".join(source.plain())
-        raise BadInput(
-            f"--sections {path}: the blade is of blade.source ({origin}); only a parametric one has sections"
-        )
+        origin = f"the blade is of blade.source ({', '.join(source.plain())})"
+        raise BadInput(f"--sections {path}: {origin}; only a parametric one has sections")
 
     from bladerub.blade.geometry import BladeShape
-    from bladerub.extras.export import sections
+    from bladerub.extras.export import blade_files
 
     shape, coordinates = BladeShape.from_config(config.blade), options.coordinates or COORDINATES[0]
     with refused(OSError), refused(ValueError, because=f"--coordinates {coordinates}: "):
-        n_sections, n_stations = sections.write_sections(path, shape, coordinates)
+        n_sections, n_stations = blade_files.write_sections(path, shape, coordinates)
     figures = {"files": [str(path)], "coordinates": coordinates}
     text = f"{n_sections} sections, {n_stations} stations in all, in m and rad, {coordinates} coordinates"
     return figures | {"sections": n_sections, "stations": n_stations}, f"{text}\nwrote {path}"

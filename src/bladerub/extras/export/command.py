@@ -28,16 +28,13 @@ _MOTIONS = (
     ("--vtu", "DIR", "a new folder for blade.pvd and a .vtu for each instant"),
     ("--animation", "FILE", "a new GIF: blades, coating and wear over the whole run, seen along the axis"),
 )
-_GOES_WITH = {
-    "samples": ("vtu", "animation"),
+_GOES_WITH = {  # options that need one of others
+    **dict.fromkeys(("samples", "run"), ("vtu", "animation")),
+    **dict.fromkeys(("vtu", "animation"), ("run",)),
     "speeds": ("calculix", "fe_matrices"),
     "matrix_format": ("fe_matrices",),
-    "run": ("vtu", "animation"),
-    "vtu": ("run",),
-    "animation": ("run",),
     "coordinates": ("sections",),
 }
-"""Options that need one of others."""
 _SUFFIXES = {
     "animation": (".gif",),
     "mesh": (".inp", ".msh", ".vtu"),
@@ -94,14 +91,9 @@ def export(options: argparse.Namespace) -> None:
             raise BadInput(f"--{form} {file}: must end in {', '.join(suffixes)}")
         if file and file.exists():  # perhaps what somebody drew
             raise BadInput(f"--{form} {file}: is there already, must be a new file")
-    if options.animation:
-        figures, text = _animation(options, config)
-    elif options.vtu:
-        figures, text = _motion(options, config)
-    elif options.sections:
-        figures, text = blade_command.write_sections(options, config)
-    else:
-        figures, text = blade_command.write(options, config)
+    forms = {"animation": _animation, "vtu": _motion, "sections": blade_command.write_sections}
+    write = next((forms[form] for form in forms if getattr(options, form)), blade_command.write)
+    figures, text = write(options, config)
     inputs.show(options, figures, lambda _: text)
 
 
@@ -109,7 +101,7 @@ def _motion(options: argparse.Namespace, config: "Config") -> tuple[dict[str, An
     """Write the motion of a run; return what was written, also in words."""
     run, plan, blade, config = _run_of_file(options, config, "vtu")
 
-    from bladerub.extras.export.vtu import COLLECTION, read_mesh, write_motion
+    from bladerub.extras.export.mesh_file import COLLECTION, read_mesh, write_motion
     from bladerub.extras.stress.run import stress_of
     from bladerub.io.provenance import provenance
 
@@ -125,17 +117,9 @@ def _motion(options: argparse.Namespace, config: "Config") -> tuple[dict[str, An
     nodes, elements = blades * len(mesh["points"]), blades * len(mesh["cells"])
     size = sum(file.stat().st_size for file in options.vtu.iterdir())
     displacement = largest["largest_displacement"]
-    figures = {
-        "collection": str(options.vtu / COLLECTION),
-        "samples": options.samples,
-        "revolution": revolution,
-        "blades": blades,
-        "nodes": nodes,
-        "elements": elements,
-        **largest,
-        "displacement_over_length": displacement / blade.reduced.length,
-        "bytes": size,
-    }
+    figures = {"collection": str(options.vtu / COLLECTION), "samples": options.samples}
+    figures |= {"revolution": revolution, "blades": blades, "nodes": nodes, "elements": elements, **largest}
+    figures |= {"displacement_over_length": displacement / blade.reduced.length, "bytes": size}
     stresses = "stress not known: a blade of matrices has no elements"
     if stress:
         place = ", ".join(f"{1e3 * x:.1f}" for x in largest["largest_von_mises_at"])
@@ -165,17 +149,11 @@ def _animation(options: argparse.Namespace, config: "Config") -> tuple[dict[str,
     with refused(OSError, because=f"--animation {path}: cannot be written: "):
         animate(path, recording, blade.reduced, plan.row or Row.even(1), run.attributes)
     blades, revolutions = recording.revolution_peak.shape
-    figures = {
-        "animation": str(path),
-        "samples": options.samples,
-        "revolutions": revolutions,
-        "blades": blades,
-        "greatest_wear": float(recording.wear.max()),
-        "bytes": path.stat().st_size,
-    }
-    return figures, (
+    wear, size = float(recording.wear.max()), path.stat().st_size
+    figures = {"animation": str(path), "samples": options.samples, "revolutions": revolutions}
+    return figures | {"blades": blades, "greatest_wear": wear, "bytes": size}, (
         f"{options.samples} instants of {revolutions} revolutions, {blades} blades, greatest wear "
-        f"{1e3 * figures['greatest_wear']:.4g} mm: {path}, {figures['bytes'] / 1e6:.3g} MB"
+        f"{1e3 * wear:.4g} mm: {path}, {size / 1e6:.3g} MB"
     )
 
 
@@ -215,9 +193,7 @@ def _run_of_file(
     return run, plan, blade, config
 
 
-def _record(
-    options: argparse.Namespace, run: "StoredRun", plan: "PlannedRun", blade: "ReducedBlade", whole: bool
-) -> "Recording":
+def _record(options, run: "StoredRun", plan: "PlannedRun", blade: "ReducedBlade", whole: bool) -> "Recording":
     """Record the last complete revolution of a run, or the `whole` of it up to there."""
     from bladerub.contact.setup import compile_kernel
     from bladerub.extras.export.recording import record
@@ -226,19 +202,17 @@ def _record(
     if run.attributes["status"] == "unbounded":
         last = int(np.count_nonzero(np.isfinite(run.data["revolution_amplitude"])))
     if last == 0:
-        raise BadInput(
-            f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "
-            "revolution is complete"
-        )
+        fault = "exceeds the displacement limit in its first revolution, so that no revolution is complete"
+        raise BadInput(f"--run {options.run}: {fault}")
     before = 0 if whole else last - 1
     instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
     compile_kernel(plan.spec.turns, blade.n_interface, plan.spec.coating.element_law)
     elements = (before * n_elements + instants).tolist()
     with bar(last, "rev", None) as line:
         recording = record(blade, plan.spec, plan.row, elements, lambda done: line.update(done - line.n))
-    blade_index = run.attributes.get("blade", 1) - 1  # whose peaks are stored
     stored = run.data["revolution_peak"][:last]
-    difference = np.max(np.abs(recording.revolution_peak[blade_index] - stored))
+    computed = recording.revolution_peak[run.attributes.get("blade", 1) - 1]  # whose peaks are stored
+    difference = np.max(np.abs(computed - stored))
     if not difference <= SAME * np.max(stored):
         raise BadInput(
             f"--run {options.run}: computed again, its peaks differ by {difference:.2g} m: it was made on "

@@ -56,11 +56,10 @@ def record(
     instants: Sequence[int],
     progress: Callable[[int], None] | None = None,
 ) -> Recording:
-    """Simulate a row as `bladerub.extras.rows.row.simulate_row` does, and record it at some instants.
+    """Simulate as `bladerub.extras.rows.row.simulate_row` a row, or the blade alone; record it at instants.
 
-    No row is the single blade. The instants ascend, as numbers of elements that have passed since the start;
-    nothing is computed after the last, before which no blade may leave the displacement limit. Other
-    parameters, and what is raised, are those of `simulate_row`.
+    These ascend, as numbers of elements that have passed since the start; nothing is computed after the last,
+    before which no blade may leave the displacement limit.
     """
     _, seats, simulation = set_up_row(blade, spec, row or Row.even(1))
     n_elements, end = spec.coating.n_elements, instants[-1]

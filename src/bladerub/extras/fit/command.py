@@ -36,22 +36,17 @@ def fit_coating(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     result = fit.fit_coating(options.table, strain_unit=options.strain_unit, stress_unit=options.stress_unit)
     names = [parameter.name for parameter in result.parameters]
-    figures = {
-        "points": result.n_points,
-        "rates": list(result.rates),
-        "residual": result.residual,
-        "autocorrelation": result.autocorrelation,
-        "independent_residuals": not result.has_correlated_residuals,
-        "parameters": [asdict(parameter) for parameter in result.parameters],
-        "covariance": {
-            name: {other: float(value) for other, value in zip(names, row, strict=True) if value == value}
-            for name, row in zip(names, result.covariance, strict=True)
-        },
-        "config": {
-            "modulus_unit": config.contact.modulus_unit,  # times contact.scale.modulus is what E is given in
-            **{name: result[name].value / modulus_unit(config) for name in ("E", "K", "yield_stress")},
-        },
+    figures = {"points": result.n_points, "rates": list(result.rates), "residual": result.residual}
+    figures["autocorrelation"] = result.autocorrelation
+    figures["independent_residuals"] = not result.has_correlated_residuals
+    figures["parameters"] = [asdict(parameter) for parameter in result.parameters]
+    figures["covariance"] = {
+        name: {other: float(value) for other, value in zip(names, row, strict=True) if value == value}
+        for name, row in zip(names, result.covariance, strict=True)
     }
+    unit = modulus_unit(config)  # contact.modulus_unit times contact.scale.modulus: what E is given in
+    scaled = {name: result[name].value / unit for name in ("E", "K", "yield_stress")}
+    figures["config"] = {"modulus_unit": config.contact.modulus_unit} | scaled
     inputs.show(options, figures, _in_words)
 
 
@@ -65,15 +60,12 @@ def _in_words(figures: dict[str, Any]) -> str:
         *(_row(parameter) for parameter in rows),
         "",
     ]
-    open_ones = [row["name"] for row in rows if not row["determined"]]
-    if open_ones:
-        lines += [f"not determined by these curves: {', '.join(open_ones)}", ""]
+    if unknown := [row["name"] for row in rows if not row["determined"]]:
+        lines += [f"not determined by these curves: {', '.join(unknown)}", ""]
     if not figures["independent_residuals"]:
-        lines += [
-            f"residuals follow one another (correlation {figures['autocorrelation']:.2f}): the law does not "
-            "follow the curves, and the intervals are too narrow",
-            "",
-        ]
+        correlation = f"residuals follow one another (correlation {figures['autocorrelation']:.2f})"
+        meaning = "the law does not follow the curves, and the intervals are too narrow"
+        lines += [f"{correlation}: {meaning}", ""]
     config = figures["config"]
     mpa = {row["name"]: f"{row['value'] / 1e6:.4g} MPa" for row in rows if row["unit"] == "Pa"}
     lines += [

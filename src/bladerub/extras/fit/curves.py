@@ -16,17 +16,12 @@ import pandas as pd
 from bladerub.extras import cells
 from bladerub.io.errors import BadInput
 
-UNITS = {
-    "strain": {"1": 1.0, "%": 0.01},
-    "stress": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
-    "rate": {"1/s": 1.0},
-}
-"""Units of each column, in SI."""
+# units of each column, in SI
+UNITS = {"strain": {"1": 1.0, "%": 0.01}, "stress": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}}
+UNITS |= {"rate": {"1/s": 1.0}}
 _DEFAULT = {"strain": "1", "rate": "1/s"}  # stress has none: Pa and MPa are both usual
-_MOST = {"strain": 1.0, "stress": 1e12, "rate": 1e9}
-"""Largest values that a coating can have, in SI: beyond, the unit is another."""
-FEWEST_ROWS = 5
-FEWEST_OF_CURVE = 3
+_MOST = {"strain": 1.0, "stress": 1e12, "rate": 1e9}  # of a coating, in SI: beyond, the unit is another
+FEWEST_ROWS, FEWEST_OF_CURVE = 5, 3
 _HEADER = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*", re.DOTALL)
 
 
@@ -39,10 +34,9 @@ class Curve(NamedTuple):
 
 
 def read(path: str | Path, units: Mapping[str, str] | None = None) -> list[Curve]:
-    """Read the curves of a table, in the order of their rates.
+    """Read the curves of a table in the order of their rates; `BadInput` names column, line and value.
 
-    `units` states the units of columns whose header has none. Raises `BadInput` that names column, line and
-    value of what cannot be used.
+    `units` states the units of columns whose header has none.
     """
     try:
         return _read(cells.read(Path(path)), units or {})
@@ -75,10 +69,8 @@ def _read(table: cells.Cells, units: Mapping[str, str]) -> list[Curve]:
                 "rows of a test must have one rate, the nominal one"
             )
         if 0 < strain[0] == strain.max():
-            raise ValueError(
-                f"the curve at the rate {rate:g} 1/s begins at its largest strain; rows must be in the order "
-                "of loading"
-            )
+            fault = f"the curve at the rate {rate:g} 1/s begins at its largest strain"
+            raise ValueError(f"{fault}; rows must be in the order of loading")
         curves.append(Curve(rate, strain, rows.stress.to_numpy()))
     return sorted(curves, key=lambda curve: curve.rate)
 
@@ -88,10 +80,8 @@ def _values(table: cells.Cells, column: str, stated: str | None, units: Mapping[
     unit = stated or units.get(column) or _DEFAULT.get(column)
     factors = UNITS[column]
     if unit not in factors:
-        problem = f"unit = {unit}" if unit else "has no unit"
-        raise ValueError(
-            f"column {column}: {problem}, must be {' or '.join(factors)}: {column} ({[*factors][-1]})"
-        )
+        problem, right = f"unit = {unit}" if unit else "has no unit", " or ".join(factors)
+        raise ValueError(f"column {column}: {problem}, must be {right}: {column} ({[*factors][-1]})")
     values = factors[unit] * table.numbers(column)
     bound = _MOST[column]
     bad = (np.abs(values) > bound) | ((values < 0) & (column != "stress"))

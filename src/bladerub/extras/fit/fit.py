@@ -26,11 +26,10 @@ from bladerub.extras.fit.curves import read as read_curves
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import BadInput
 
+# parameters by name, in the order of the fit, with their units
 UNITS = {"E": "Pa", "K": "Pa", "yield_stress": "Pa", "overstress": "Pa", "exponent": "1"}
-"""Parameters by name, in the order of the fit, with their units."""
-LEVEL = 0.95
-CORRELATED = 0.3
-"""Correlation of successive residuals beyond which they are no independent errors."""
+LEVEL = 0.95  # of confidence
+CORRELATED = 0.3  # successive residuals: beyond, they are no independent errors
 _STARTS = (0.1, 0.3, 0.6, 0.9)  # elastic limit over the largest stress
 _YIELDING = 0.999  # level; the place of the bend is sought, so that noise alone gains more than one of F says
 _PRECISELY = {"xtol": 1e-12, "ftol": 1e-15, "gtol": 1e-15}  # exact curves give the exact law
@@ -93,16 +92,13 @@ class Fit(Comparable):
 
 
 def stress(parameters: Sequence[float], curve: Curve) -> np.ndarray:
-    """Compute the stress (n,) of a curve by the law; parameters as `UNITS` has them, in one unit of stress.
-
-    The wear of an element follows from the largest depth that it has borne.
-    """
+    """Compute the stress (n,) of a curve by the law; parameters as in `UNITS`, in one unit of stress."""
     E, K, limit, *rate_part = parameters
     if rate_part:
         overstress, exponent = rate_part
         limit += overstress * (curve.rate * E / (E + K)) ** exponent
     coating = replace(_UNIT, E=E, K=K, yield_stress=limit)
-    _, wear = law.load(coating, np.maximum.accumulate(curve.strain), np.zeros(1))
+    _, wear = law.load(coating, np.maximum.accumulate(curve.strain), np.zeros(1))  # of the largest depth
     return law.load(coating, curve.strain, wear)[0]
 
 
@@ -145,11 +141,7 @@ def fit_coating(path: str | Path, *, strain_unit: str | None = None, stress_unit
 
 
 def fit(curves: Sequence[Curve]) -> Fit:
-    """Fit the law to all curves at once, every point with the same weight.
-
-    The exponent m is fitted from three rates on, and 1 for two. Raises `BadInput` if there are fewer points
-    than parameters.
-    """
+    """Fit the law to all curves at once, every point with the same weight; `BadInput` for too few points."""
     rates = sorted({curve.rate for curve in curves})
     names = list(UNITS)[: 3 if len(rates) == 1 else 4 if len(rates) == 2 else 5]
     points = sum(curve.strain.size for curve in curves)
@@ -157,7 +149,7 @@ def fit(curves: Sequence[Curve]) -> Fit:
         raise BadInput(f"{points} points are too few for {len(names)} parameters")
     unit = max(np.abs(curve.stress).max() for curve in curves)
     measured = np.concatenate([curve.stress for curve in curves]) / unit
-    fixed = [1.0] if len(names) == 4 else []
+    fixed = [1.0] if len(names) == 4 else []  # the exponent m is fitted from three rates on, and 1 for two
 
     def residuals(x: np.ndarray) -> np.ndarray:
         return np.concatenate([stress([*x, *fixed], curve) for curve in curves]) - measured
@@ -202,10 +194,7 @@ def _starts(curves: Sequence[Curve], unit: float, n: int) -> list[np.ndarray]:
 
 
 def _yields(curves: Sequence[Curve], measured: np.ndarray, squares: float, n: int) -> bool:
-    """Whether the law fits the curves better than a straight line does, by more than noise would (F test).
-
-    `squares` is what the fit of `n` parameters leaves of `measured`, as a sum of squares.
-    """
+    """Whether the law fits better than a straight line, by more than noise (F test on `squares` left)."""
     strain = np.concatenate([curve.strain for curve in curves])
     line = strain * (strain @ measured) / (strain @ strain)
     freedom = measured.size - n

@@ -15,7 +15,7 @@ _COLOURS = (style.BLUE, style.ORANGE, style.RED, style.VIOLET, style.DARK)
 def stress(table: pd.DataFrame, scales: Scales) -> Figure:
     """Draw the stress of the last revolutions over speed and displacement, a colour for each engine order.
 
-    `table` is from `bladerub.extras.stress.table`, `scales` the blade.
+    `table` is from `bladerub.extras.stress.run`, `scales` the blade.
     """
     figure = style.new_figure(style.PAGE, 0.55 * style.PAGE)
     over_speed, over_displacement = figure.subplots(1, 2)

@@ -22,10 +22,8 @@ from bladerub.contact.tip import coverage, edge, relief
 from bladerub.extras.rig.spec import MEASURABLE, Rig
 from bladerub.numerics.vectors import LANES
 
-ELEMENTS, STEPS = 40, 8
-"""Elements under the tip, and time steps in the passage of one."""
-COLUMNS = ("pass", "tip_depth", *MEASURABLE, "energy_residual")
-"""Columns of `simulate_passes`."""
+ELEMENTS, STEPS = 40, 8  # under the tip, and time steps in the passage of one
+COLUMNS = ("pass", "tip_depth", *MEASURABLE, "energy_residual")  # of `simulate_passes`
 
 
 def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> pd.DataFrame:
@@ -61,13 +59,10 @@ def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> p
             layer.rest(heat, 0, 1)
         normal = math.cos(rig.theta) * tip_force
         tangential = math.sin(rig.theta) * tip_force + energy / width
-        rows.append(
-            (
-                *(number, depth, normal, tangential, normal * coated / rig.speed),
-                *(tangential * coated / rig.speed, forces.max() / area, worn, worn - wear),
-                *(energy * coated / width, rise, residual),
-            )
-        )
+        impulses = (normal * coated / rig.speed, tangential * coated / rig.speed)
+        wear_now = (worn, worn - wear, energy * coated / width)
+        row = (number, depth, normal, tangential, *impulses, forces.max() / area, *wear_now, rise, residual)
+        rows.append(row)
         wear = worn
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
@@ -80,11 +75,7 @@ def table(rigs: Iterable[Rig]) -> pd.DataFrame:
 
 
 def compared(rigs: Iterable[Rig], passes: pd.DataFrame) -> pd.DataFrame:
-    """Set the last pass of each rig beside what was measured: a row for each of `MEASURABLE`.
-
-    ``computed`` and ``measured_on_rig`` are in the unit of the column; the latter is NaN where nothing was
-    measured. ``assumed`` lists what the ``source`` does not give.
-    """
+    """Set the last pass of each rig beside what was measured, or NaN: a row for each of `MEASURABLE`."""
     rows = []
     for rig in rigs:
         last = passes[passes.rig == rig.name].iloc[-1]
@@ -100,8 +91,7 @@ def _one_passage(
     """Press an element along `depth` (n,) below its original surface (m); it was worn by `wear` before.
 
     The edge of the tip comes down on it in the first step, and leaves it in the last. Returns, without heat,
-    its forces (n,), N, its wear after the passage, m, the energy that it takes up, J, and what this leaves of
-    the work of the tip on it, over the work exchanged.
+    its forces (n,), N, wear after it, m, energy taken up, J, and the share of the work that this leaves.
     """
     forces, energy, work, exchanged, before = np.zeros(depth.size), 0.0, 0.0, 0.0, 0.0
     for i, level in enumerate(depth):

@@ -43,12 +43,8 @@ class RigSettings(Section):
     coated: Metre = Field(ge=0, le=1000)
     passes: int = Field(ge=1, le=100000)
     law: Omitted[Law] = None
-    source: Annotated[Omitted[str], Form("a text of at most 300 letters")] = Field(
-        None, pattern=r"^.{0,300}$"
-    )
-    assumed: list[
-        Annotated[str, Field(pattern=r"^[A-Za-z_]{1,40}$"), Form("the name of a parameter of a rig")]
-    ]
+    source: Annotated[Omitted[str], Form("a text of at most 300 letters")] = Field(None, pattern="^.{0,300}$")
+    assumed: list[Annotated[str, Field(pattern=r"^[A-Za-z_]{1,40}$"), Form("the name of a rig's parameter")]]
     measured: Omitted[dict[str, Annotated[float, Unit("as in the table"), Field(ge=-1e15, le=1e15)]]] = None
 
 
@@ -137,10 +133,8 @@ class Rig:
         if mistakes := list(problems(parameters, RigSettings)):
             raise ValueError("; ".join(mistakes))
         if self.incursion * self.passes >= self.thickness:
-            deepest = self.thickness / self.passes
-            raise ValueError(
-                f"incursion = {self.incursion:g}: must be below {deepest:g}, or the layer is through"
-            )
+            right = f"must be below {self.thickness / self.passes:g}, or the layer is through"
+            raise ValueError(f"incursion = {self.incursion:g}: {right}")
         for name in ("tip_length", "coated"):
             if (length := getattr(self, name)) > self.track:
                 raise ValueError(f"{name} = {length:g}: must be at most the track, {self.track:g}")
@@ -152,9 +146,8 @@ class Rig:
     @property
     def coating(self) -> Coating:
         """The coating, its moduli in Pa; elements are those of `bladerub.extras.rig.passes`."""
-        return Coating(
-            self.E, self.K, self.theta, self.yield_stress, 1.0, self.thickness, 1, element_law=self.law
-        )
+        layer = (self.E, self.K, self.theta, self.yield_stress, 1.0, self.thickness)
+        return Coating(*layer, n_elements=1, element_law=self.law)
 
 
 def read_rigs(path: str | Path) -> list[Rig]:

@@ -21,8 +21,7 @@ class NodalStress:
     """Cauchy stress at the nodes of a mesh, in axes that turn with the vibrating material.
 
     `points` (n_nodes, 3) are at rest, m, `cells` (n_elements, 20 or 10) in the order of CalculiX and VTK; the
-    `material` is isotropic, St Venant-Kirchhoff; `running` (n_nodes, 3) is the displacement from rest to the
-    equilibrium at speed, m.
+    `material` is St Venant-Kirchhoff's; `running` (n_nodes, 3) leads from rest to equilibrium at speed, m.
     """
 
     def __init__(self, points: np.ndarray, cells: np.ndarray, material: Material, running: np.ndarray):
@@ -41,10 +40,7 @@ class NodalStress:
         self._strain = _symmetric(gradient) + 0.5 * np.swapaxes(gradient, -1, -2) @ gradient
 
     def __call__(self, displacement: np.ndarray) -> np.ndarray:
-        """Stress (n_nodes, 3, 3), Pa, at a displacement (n_nodes, 3), m, about the running position.
-
-        NaN at nodes of no element.
-        """
+        """Stress (n_nodes, 3, 3), Pa, at a displacement (n_nodes, 3), m, from `running`; NaN off elements."""
         lam, mu = lame(self._material)
         F_transposed = np.swapaxes(self._F, -1, -2)
         E = self._strain + _symmetric(F_transposed @ self._gradient(displacement))
@@ -73,11 +69,8 @@ def von_mises(stress: np.ndarray) -> np.ndarray:
 
 
 def running_displacement(f_omega: np.ndarray, static: np.ndarray, speed: float) -> np.ndarray:
-    """Centrifugal displacement (n_nodes, 3) at `speed`, m, between those (n_speeds, n_nodes, 3) at `f_omega`.
-
-    It is nearly proportional to the square of the speed, in which the spline goes.
-    """
-    return CubicSpline(f_omega**2, static, axis=0)(speed**2)
+    """Centrifugal displacement (n_nodes, 3) at `speed`, m, between `static` (n_speeds, n_nodes, 3)."""
+    return CubicSpline(f_omega**2, static, axis=0)(speed**2)  # nearly proportional to the square of the speed
 
 
 def _monomials(x: np.ndarray, corners: int) -> np.ndarray:

@@ -19,23 +19,14 @@ from bladerub.numerics.machine_code import njit_on_disk
 
 _ROWS, _COLUMNS = (0, 1, 2, 0, 1, 2), (0, 1, 2, 1, 2, 0)
 _KINDS = ("von_mises", "principal", "alternating")
-_LEADING = 3
-"""Coordinates that cause most stress: all nodes are looked at first in extremes of them and their sums."""
-_FEW = 16
-"""Nodes that are then looked at in all instants for each kind of stress."""
-_INSTANTS = 32
-"""Instants of largest stress there at which all nodes are looked at again.
-
-With 2 nodes and 8 instants the largest stress was missed in 3 of 160 parts of runs, by up to 2 %; with these
-in none.
-"""
+# All nodes are looked at first in extremes of the coordinates that cause most stress, and of their sums, then
+# some for each kind of stress in all instants, and all again at the instants of largest stress there. With 2
+# nodes and 8 instants it was missed in 3 of 160 parts of runs, by up to 2 %; with these in none.
+_LEADING, _FEW, _INSTANTS = 3, 16, 32
 
 
 class ModalStress(NamedTuple):
-    """Stress at some nodes of a mesh as a function of coordinates of the motion, at one speed.
-
-    It has six components, xx, yy, zz, xy, yz and zx, Pa.
-    """
+    """Stress (xx, yy, zz, xy, yz, zx; Pa) at nodes of a mesh by coordinates of the motion, at one speed."""
 
     points: np.ndarray  # (m, 3), the nodes at rest, m
     static: np.ndarray  # (6, m), at the running position
@@ -45,11 +36,7 @@ class ModalStress(NamedTuple):
     def of_mesh(
         cls, stress: NodalStress, recovery: np.ndarray, points: np.ndarray, nodes: np.ndarray
     ) -> "ModalStress":
-        """Find it at some of the `nodes` of a mesh.
-
-        The coordinates displace all nodes (n_nodes, 3) by `recovery` (k, n_nodes, 3) each; `stress` is that
-        of the mesh at this speed.
-        """
+        """Find it at `nodes` of a mesh, whose coordinates displace it by `recovery` (k, n_nodes, 3)."""
         static = _six(stress(np.zeros(points.shape)), nodes)
         slope = np.array([_six(stress(displacement), nodes) - static for displacement in recovery])
         single = np.float32  # as the displacement per coordinate is stored
@@ -97,14 +84,12 @@ def stress_peaks(
     """Find the largest stress in each part of a motion, of a blade whose `stress` is at its speed.
 
     `coordinates` (s, k) are about the running position at each instant, `time` (s,) in revolutions; `parts`
-    are the instants of each part, none of them empty.
-
-    Returns for each part ``von_mises`` and ``principal`` (largest principal), Pa, each with its place at rest
-    ``…_x``, ``…_y``, ``…_z``, m, and ``…_time``, revolutions. ``alternating``, Pa, with its place: half the
-    von Mises stress of the difference between two instants, the largest of all. It is exact where one mode
-    vibrates, and else on the safe side: the root of the sum of squares of half the range of the five terms
-    ``√3/2 (x − y)``, ``(x + y)/2 − z`` and √3 times the shear stresses, as the von Mises stress is of the
-    terms themselves.
+    are the instants of each part, none of them empty. Returns for each ``von_mises`` and ``principal``
+    (largest principal), Pa, with place at rest ``…_x``, ``…_y``, ``…_z``, m, and ``…_time``, revolutions.
+    ``alternating``, Pa, with its place: half the von Mises stress of the difference between two instants, the
+    largest of all. It is exact where one mode vibrates, and else on the safe side: the root of the sum of
+    squares of half the range of the five terms ``√3/2 (x − y)``, ``(x + y)/2 − z`` and √3 times the shear
+    stresses, as the von Mises stress is of the terms themselves.
     """
     starts = [_largest(stress(extreme))[0] for extreme in _extremes(stress, coordinates, parts)]
     few = min(_FEW, stress.points.shape[0])
@@ -126,9 +111,7 @@ def stress_peaks(
     return [_named(stress, largest, time[part]) for part, largest in zip(parts, peaks, strict=True)]
 
 
-def _named(
-    stress: ModalStress, largest: dict[str, tuple[float, int, int]], time: np.ndarray
-) -> dict[str, float]:
+def _named(stress: ModalStress, largest: dict[str, tuple], time: np.ndarray) -> dict[str, float]:
     figures = {}
     for name, (value, node, instant) in largest.items():
         figures |= _at(stress, name, value, node)
@@ -178,10 +161,7 @@ def _largest(values):
 
 
 def stressed_nodes(stress: ModalStress, share: float) -> np.ndarray:
-    """Numbers of the nodes where the running position or a unit of some coordinate causes much stress.
-
-    Much is the `share` of the largest von Mises stress by the same cause.
-    """
+    """Numbers of the nodes where rotation or a unit of a coordinate causes this `share` of its most."""
     parts = von_mises(*np.moveaxis(np.concatenate([stress.static[None], stress.slope]), 1, 0))
     return np.flatnonzero((parts > share * parts.max(axis=1, keepdims=True)).any(axis=0))
 
@@ -189,7 +169,7 @@ def stressed_nodes(stress: ModalStress, share: float) -> np.ndarray:
 def static_peak(stress: ModalStress) -> dict[str, float]:
     """Find the largest stress at the running position: ``von_mises`` and ``principal``, as `stress_peaks`."""
     largest = {"von_mises": von_mises(*stress.static), "principal": principal(*stress.static)}
-    mises, first = (_at(stress, name, values.max(), int(values.argmax())) for name, values in largest.items())
+    mises, first = (_at(stress, name, values.max(), values.argmax()) for name, values in largest.items())
     return mises | first
 
 

@@ -1,4 +1,4 @@
-"""The stress of a run, from its sampled motion and the stress of the blade as a function of it."""
+"""The stress of a run, from its sampled motion and the stress of the blade by it; table of the peaks."""
 
 import json
 from collections.abc import Callable, Mapping
@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import mode_shapes_at
@@ -18,12 +20,21 @@ from bladerub.extras.stress.sampling import SampledRun, simulate_sampled
 from bladerub.io import hdf5
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Material
+from bladerub.settings.study import Config
+from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.solver import Solver
+from bladerub.study.variants import filled, with_variant
 
-INSTANTS = 200
-"""A revolution; ten times as many raise the largest von Mises stress by up to 2 %."""
+INSTANTS = 200  # a revolution; ten times as many raise the largest von Mises stress by up to 2 %
+# for many runs, stress is kept where the rotation or one of so many modes causes this share of its most
 _MODES, _SHARE = 3, 0.7
-"""For many runs, stress is kept where the rotation or one of so many modes causes this share of its most."""
+
+_CASE = ("casing", "E", "K", "theta", "law")
+_PEAK = ("order", "f_peak", "amplitude")
+_OF_LAST = ("von_mises", "von_mises_x", "von_mises_y", "von_mises_z", "principal", "alternating")
+COLUMNS = [*_CASE, *_PEAK, "status", "rotation_von_mises", "start_up_von_mises"]
+COLUMNS += [f"last_{name}" for name in _OF_LAST]
+"""Columns of ``stress.csv``, described in ``columns.csv``."""
 
 
 @dataclass(frozen=True)
@@ -36,24 +47,18 @@ class RunStress:
 
     def attributes(self) -> dict[str, float]:
         """Name each figure for the file of the run, as ``stress_last_von_mises``."""
-        return {
-            f"stress_{part}_{name}": value
-            for part, figures in vars(self).items()
-            for name, value in figures.items()
-        }
+        parts = vars(self).items()
+        return {f"stress_{part}_{name}": value for part, peaks in parts for name, value in peaks.items()}
 
     @classmethod
     def described(cls, attributes: Mapping[str, Any]) -> "RunStress | None":
         """Read the stress from the `attributes` of the file of a run; None where they have none."""
-        parts = {
-            part: {
-                name.removeprefix(f"stress_{part}_"): value
-                for name, value in attributes.items()
-                if name.startswith(f"stress_{part}_")
-            }
-            for part in (field.name for field in fields(cls))
-        }
-        return cls(**parts) if parts["last"] else None
+        prefixes = [f"stress_{field.name}_" for field in fields(cls)]
+        static, start_up, last = (
+            {name.removeprefix(prefix): x for name, x in attributes.items() if name.startswith(prefix)}
+            for prefix in prefixes
+        )
+        return cls(static, start_up, last) if last else None
 
 
 def has_elements(path: str | Path) -> bool:
@@ -70,10 +75,10 @@ def stress_of(path: str | Path, f_omega: float) -> NodalStress:
 
 
 def modal_stress(path: str | Path, f_omega: float, patterns: np.ndarray | None = None) -> ModalStress:
-    """Return the stress, as of `stress_of`, as a function of the reduced coordinates, or of others.
+    """Return the stress by the reduced coordinates, or by others, of reduced coordinates `patterns` (k, n).
 
-    Each of the others has reduced coordinates `patterns` (k, n). Nodes of elements with an interface node are
-    left out: that a contact force acts in a point is of the model, and the stress there of the mesh.
+    Nodes of elements with an interface node are left out: that a contact force acts in a point is of the
+    model, and the stress there of the mesh.
     """
     mesh, _ = hdf5.read(path, {"recovery", "points", "cells", "interface_nodes"})
     displaced = mesh["recovery"] if patterns is None else np.tensordot(patterns, mesh["recovery"], axes=1)
@@ -86,8 +91,8 @@ class BladeStress:
     """Stress of a blade at any speed, for many runs of it.
 
     It is found for each reduced coordinate at three speeds, and between them as a parabola over the square of
-    the speed. It is kept at those nodes only that one of the first modes or the rotation stresses most.
-    `path` is the ``mesh.h5`` of the blade. Raises `BadInput` if that is of matrices alone.
+    the speed, at those nodes that one of the first modes or the rotation stresses most. `path` is the
+    ``mesh.h5`` of the blade; `BadInput` if that is of matrices alone.
     """
 
     def __init__(self, path: str | Path, blade: ReducedBlade):
@@ -123,11 +128,10 @@ class BladeStress:
 
 
 class StressSolver(Solver):
-    """Simulates runs of a single blade as `Solver`, and keeps the `stress` of the first.
+    """Simulates runs of a blade as `Solver`, but for rounding of energies; keeps `stress` of the first.
 
-    The run is that of `Solver` but for rounding in the sums of its energies. `mesh` is the ``mesh.h5`` of
-    the blade, `last` how many revolutions are the last ones. The stress is None where the blade is of
-    matrices alone, which tell of no stress, or no revolution is complete.
+    `mesh` is the ``mesh.h5`` of the blade, `last` how many revolutions are the last ones. The stress is None
+    where the blade is of matrices alone, or no revolution is complete.
     """
 
     def __init__(self, mesh: str | Path, last: int):
@@ -161,3 +165,21 @@ def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress
     parts = [slice(0, begin), slice(begin, end)] if begin else [slice(0, end)]
     *start_up, last_peaks = stress_peaks(stress, run.amplitudes, run.time, parts)
     return RunStress(static_peak(stress), start_up[0] if start_up else {}, last_peaks)
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # the products are small
+def table(mesh: str | Path, blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
+    """Find the stress at each of the `peaks`, a table ``peaks.csv``: rows of `COLUMNS` (`with_variant`).
+
+    `mesh` is the ``mesh.h5`` of the blade; `BadInput` where it is of matrices alone, which tell of no stress.
+    """
+    stress, rows = BladeStress(mesh, blade), []
+    for peak in filled(peaks).dropna(subset=["f_peak"]).to_dict("records"):
+        spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])
+        result, run_stress = stress.of_run(spec, config.analysis.spectrum_revolutions)
+        rows.append({name: peak[name] for name in (*_CASE, "variant", *_PEAK)} | {"status": result.status})
+        if run_stress:
+            rows[-1]["rotation_von_mises"] = run_stress.static["von_mises"]
+            rows[-1]["start_up_von_mises"] = run_stress.start_up.get("von_mises")
+            rows[-1] |= {f"last_{name}": run_stress.last[name] for name in _OF_LAST}
+    return with_variant(pd.DataFrame(rows, columns=[*COLUMNS, "variant"]), COLUMNS)

@@ -11,8 +11,6 @@ from bladerub.cli.run_option import RunOption
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
-    from bladerub.api.blade import Blade
-    from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
     from bladerub.settings.study import Config
 
@@ -33,17 +31,14 @@ class StressOption(RunOption):
     def check(self, options: argparse.Namespace, config: "Config") -> None:
         """Refuse the stress of rows."""
         if options.stress and (getattr(options, "blades", None) is not None or config.plugged("rotor")):
-            raise BadInput(
-                "--stress: is of a single blade; not with --blades or the block rotor of the config"
-            )
+            others = "not with --blades or the block rotor of the config"
+            raise BadInput(f"--stress: is of a single blade; {others}")
 
     def arguments(self, options: argparse.Namespace) -> dict[str, Any]:
         """Ask for the stress."""
         return {"stress": True} if options.stress else {}
 
-    def figures(
-        self, options: argparse.Namespace, planned: "StudyRun", blade: "Blade", run: "Run"
-    ) -> dict[str, Any]:
+    def figures(self, options: argparse.Namespace, planned: Any, blade: Any, run: "Run") -> dict[str, Any]:
         """Return the stress; None if it is not known."""
         return {"stress": asdict(run.stress) if run.stress else None} if options.stress else {}
 

@@ -38,10 +38,9 @@ class SampledRun(NamedTuple):
 def simulate_sampled(
     blade: ReducedBlade, spec: RunSpec, instants: int, progress: Callable[[int], None] | None = None
 ) -> SampledRun:
-    """Simulate a run, and sample it at so many instants of each revolution, one an element at most.
+    """Simulate a run as `bladerub.contact.run.simulate`, sampled at so many `instants` of each revolution.
 
-    `progress` is called with the number of revolutions done after each of them. Raises `ValueError` as
-    `bladerub.contact.run.simulate`.
+    One an element at most. `progress` is called with the number of revolutions done after each of them.
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     modes, (_, shapes) = modes_at(blade, spec.f_omega, spec), mode_shapes_at(blade, spec.f_omega)
@@ -68,9 +67,7 @@ def simulate_sampled(
 class _Sampled:
     """For `integrate`, in the place of a simulation: sampled after elements `ends` of each revolution."""
 
-    def __init__(
-        self, simulation: Simulation, ends: np.ndarray, n: int, forces: np.ndarray, revolutions: int
-    ):
+    def __init__(self, simulation, ends: np.ndarray, n: int, forces: np.ndarray, revolutions: int):
         self.state, self.steps_per_element = simulation.state, simulation.steps_per_element
         # of the first n modes, and the contact forces of these numbers
         self.amplitudes = np.empty((revolutions * (ends.size - 1), n + forces.size), np.float32)

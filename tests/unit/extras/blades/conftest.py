@@ -5,7 +5,7 @@ from blade_parts import REDUCTION, TWISTED
 
 from bladerub.blade.build import meshed_blade
 from bladerub.blade.discrete import by_finite_elements
-from bladerub.extras.export.matrices import write_fe_matrices
+from bladerub.extras.export.blade_files import write_fe_matrices
 
 
 @pytest.fixture(scope="session")

@@ -15,8 +15,8 @@ from bladerub.blade.mesh import BladeMesh
 from bladerub.cli import main
 from bladerub.config import read as configuration
 from bladerub.extras.blade_meshes import read_built
+from bladerub.extras.export.blade_files import write_sections
 from bladerub.extras.export.mesh_file import write_mesh_file
-from bladerub.extras.export.sections import write_sections
 from bladerub.io.folders import ROOT
 from bladerub.io.provenance import provenance
 from bladerub.settings.blade import Mesh

@@ -1,6 +1,5 @@
 import itertools
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,8 +10,8 @@ from bladerub.blade.build import meshed_blade, reduce_meshed
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import boundary_faces
-from bladerub.extras.blades.frame import AXES, Frame
 from bladerub.extras.blades.importing import facing, import_blade
+from bladerub.extras.blades.origin import Frame
 from bladerub.extras.blades.profile import interface
 from bladerub.extras.blades.report import mesh_report
 from bladerub.extras.blades.settings import Source
@@ -69,7 +68,7 @@ def test_flow_against_x_turns_the_interface_and_the_cone_around_and_loose_nodes_
 
 def test_figures_are_those_of_the_mesh_and_what_is_odd_gets_a_warning(blade, write):
     source = Source(file=str(write("blade.vtu")))
-    read = replace(import_blade(source, TWISTED.mesh), interface_offset=0.004)
+    read = import_blade(source, TWISTED.mesh)._replace(interface_offset=0.004)
     reduction = REDUCTION.replaced("modes_per_speed", 6).replaced("rank_tolerance", 1e-6)
     built = reduce_meshed(read.blade, BladeSpec(blade=TWISTED, reduction=reduction))
     figures = mesh_report(source, read, built, TITANIUM)
@@ -153,14 +152,14 @@ def test_interface_nodes_lie_evenly_on_the_camber_line(blade_config, make_mesh, 
     blade = blade_config.replaced("sections", [section(0.0), section(1.0, camber=camber, stagger=40.0)])
     counts = Mesh.model_construct(chordwise=28, thickness=2, spanwise=1)
     shape, points, faces = tip_of(blade, make_mesh, counts)
-    found = interface(points, faces, downstream_x=1)
+    nodes, chord, offset = interface(points, faces, 1, 8)
     line = shape.points(np.linspace(0, 1, 2001), 0.5, 1.0).T
     arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     evenly = np.stack([np.interp(np.linspace(0, arc[-1], 8), arc, column) for column in line.T], axis=1)
-    off = np.linalg.norm(points[found.nodes] - evenly, axis=1)
-    assert found.chord == pytest.approx(arc[-1], rel=3e-3)
+    off = np.linalg.norm(points[nodes] - evenly, axis=1)
+    assert chord == pytest.approx(arc[-1], rel=3e-3)
     assert off.max() < 0.6 * arc[-1] / 56  # half the distance of nodes along the chord, and a little
-    assert found.offset < 0.6 * arc[-1] / 56
+    assert offset < 0.6 * arc[-1] / 56
 
 
 @pytest.mark.parametrize("angle", [180.0, -120.0])
@@ -168,14 +167,14 @@ def test_where_the_blade_stands_does_not_matter(angle):
     _, points, faces = tip_of(TWISTED)
     c, s = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
     turned = points @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
-    one, other = interface(points, faces, 1), interface(turned, faces, 1)
-    np.testing.assert_array_equal(one.nodes, other.nodes)
-    assert other.chord == pytest.approx(one.chord, rel=1e-9)
+    (nodes, chord, _), (other_nodes, other_chord, _) = (interface(p, faces, 1, 8) for p in (points, turned))
+    np.testing.assert_array_equal(nodes, other_nodes)
+    assert other_chord == pytest.approx(chord, rel=1e-9)
 
 
 def test_every_frame_is_turned_never_mirrored_and_axes_that_do_not_go_together_are_refused():
     vectors = dict(zip(("x", "y", "z", "-x", "-y", "-z"), np.vstack([np.eye(3), -np.eye(3)]), strict=True))
-    axes = [of for of in itertools.product(AXES, repeat=3) if of[1][-1] == of[0][-1] != of[2][-1]]
+    axes = [of for of in itertools.product(vectors, repeat=3) if of[1][-1] == of[0][-1] != of[2][-1]]
     assert len(axes) == 48
     for frame in [Frame("m", *of) for of in axes]:
         assert np.linalg.det(frame.turn) == pytest.approx(1.0)

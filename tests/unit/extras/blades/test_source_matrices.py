@@ -21,7 +21,7 @@ from bladerub.extras.blades.matrices import check_definite, import_matrices
 from bladerub.extras.blades.origin import check
 from bladerub.extras.blades.report import matrix_report
 from bladerub.extras.blades.settings import Source
-from bladerub.extras.export.matrices import write_fe_matrices
+from bladerub.extras.export.blade_files import write_fe_matrices
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import BladeSpec
 

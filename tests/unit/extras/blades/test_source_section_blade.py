@@ -10,10 +10,10 @@ from bladerub.blade.build import build
 from bladerub.blade.files import made_from
 from bladerub.blade.geometry import lattice
 from bladerub.blade.mesh import hexahedral_mesh
-from bladerub.extras.blades import section_blade, section_table
-from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades import section_table, sections
 from bladerub.extras.blades.importing import import_blade
-from bladerub.extras.blades.section_profile import EDGE_SHARE
+from bladerub.extras.blades.origin import Frame
+from bladerub.extras.blades.sections import EDGE_SHARE
 from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import BladeSpec, Mesh
@@ -150,7 +150,7 @@ def test_angles_in_another_unit_make_a_film_which_is_refused(tmp_path):
     for unit in ("rad", "deg"):
         source = Source(file=str(tmp_path / "film.csv"), unit="cm", angle_unit=unit)
         with pytest.raises(ValueError, match="mm thick over a chord") if unit == "deg" else nullcontext():
-            section_blade.read_profiles(source)
+            sections.read_profiles(source)
 
 
 @pytest.fixture

@@ -14,10 +14,8 @@ from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Coating
 from bladerub.extras.blades.importing import import_blade
 from bladerub.extras.blades.settings import Source
-from bladerub.extras.export.calculix import deck
-from bladerub.extras.export.matrices import write_matrices
+from bladerub.extras.export.blade_files import deck, write_matrices, write_sections
 from bladerub.extras.export.recording import record
-from bladerub.extras.export.sections import write_sections
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Disk, Row
 from bladerub.io.folders import ROOT
