@@ -1,7 +1,7 @@
 """Numbers of studies/chart/README.md."""
 
-from bladerub.extras.chart.choice import broken_limits
 from bladerub.extras.chart.settings import Limits
+from bladerub.extras.chart.table import broken_limits
 from docs.numbers import decimals, fixed, headings, mm, peak, percent, row, rows, span, table
 
 

@@ -19,6 +19,19 @@ ON_RIGID_CASING = 7
 STIFF, EXPONENT = 12.0, 0.6
 """E / f_omega from which on the time of a run grows, as its steps do, and the power by which it does."""
 
+SECONDS_PER_REVOLUTION = 0.0014
+"""Of one core, for a run of the paper's blade on a soft coating, with the other core at work: the jobs of
+the 42 softest coatings of the study (docs/data/cost.csv), and a tenth more."""
+
+GROWING = 0.09
+"""Share of the runs that grow, and go on to the longer length (the study's 63 coatings)."""
+
+SECONDS_PER_JOB = 3
+"""Of one core, to start Snakemake and the job and to draw, collect or analyse; rounded up."""
+
+SECONDS_AT_FIRST = {"blade": 10, "compile_kernel": 10}
+"""Of one core, for the jobs that are made once, by their rule."""
+
 
 class Costs(NamedTuple):
     """What the jobs of each coating of a study cost, by its name, in runs on a soft coating."""
