@@ -2,8 +2,8 @@
 import sys
 from functools import cache, partial
 
-from bladerub.extras.chart.plan import columns, in_words
-from bladerub.extras.chart.point import PointRow, chart_orders, check
+from bladerub.extras.chart.plan import check, columns, in_words
+from bladerub.extras.chart.point import PointRow, chart_orders
 from bladerub.extras.cores import threads_for
 from bladerub.study.grid import modulus_unit
 
@@ -66,7 +66,7 @@ rule chart_stress:
         blade=rules.blade.output.reduced_model,
         mesh=rules.blade.output.mesh,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extras.chart.stress"),
+        analysing=files_behind("extras.chart.table"),
     output:
         **described(table=f"{TABLES}/chart_stress.csv"),
     log:
@@ -85,7 +85,7 @@ rule chart:
         manifests=chart_manifests,
         stress=rules.chart_stress.output[:1] if "fatigue" in config["chart"]["limits"] else [],
         blade=rules.blade.output.reduced_model,
-        analysing=files_behind("extras.chart.choice", "extras.chart.ridge", "extras.chart.stress"),
+        analysing=files_behind("extras.chart.table", "extras.chart.stiffening"),
         drawing=files_behind("extras.plots.chart_moduli", "extras.plots.chart_peaks", "plots.titles"),
     output:
         **{
@@ -127,7 +127,7 @@ rule chart_placement:
             and case.casing == config["chart"]["casing"]
             and case.theta in config["chart"]["theta"]
         ],
-        analysing=files_behind("extras.chart.check"),
+        analysing=files_behind("extras.chart.table"),
     output:
         **described(
             table=f"{TABLES}/chart_placement.csv",
@@ -147,7 +147,7 @@ rule chart_agreement:
     input:
         chart=rules.chart.output.table,
         placement=rules.chart_placement.output[0],
-        analysing=files_behind("extras.chart.check"),
+        analysing=files_behind("extras.chart.table"),
     output:
         **described(table=f"{TABLES}/chart_agreement.csv"),
     log:

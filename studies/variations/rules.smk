@@ -203,7 +203,7 @@ rule identification_candidates:
         sets=of_waves("sets.csv"),
         quantities=of_sets("quantities.csv"),
         verdicts=of_sets("verdicts.csv"),
-        choosing=files_behind("extras.variations.candidates"),
+        choosing=files_behind("extras.variations.waves"),
     output:
         **described(candidates=f"{OF_SETS}/candidates/candidates.csv"),
     log:
@@ -226,7 +226,7 @@ rule identify:
         candidates=rules.identification_candidates.output.candidates,
         judged=lambda wildcards: of_jobs("identification", "verdicts.csv", "candidates/"),
         plan=PLANS["identification"],
-        summing=files_behind("extras.variations.identification", "extras.variations.candidates"),
+        summing=files_behind("extras.variations.identification"),
         drawing=files_behind("extras.variations.figures", "plots.style"),
     output:
         **drawn("identification", "Claims"),
@@ -246,7 +246,7 @@ rule margins:
     input:
         maps=expand(rules.coating.output.map, coating=COATINGS),
         rom_accuracy=rules.blade_tables.output.rom_accuracy,
-        analysing=files_behind("extras.variations.margins", "study.findings"),
+        analysing=files_behind("extras.variations.verdicts", "study.findings"),
         drawing=files_behind("extras.variations.verdicts", "plots.style"),
     output:
         **drawn("margins", "Claims"),

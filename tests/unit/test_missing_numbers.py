@@ -14,8 +14,7 @@ from study_fixtures import changed
 
 from bladerub.extras.explorer.page import build
 from bladerub.extras.maps.interface import Map
-from bladerub.extras.variations import margins
-from bladerub.extras.variations.verdicts import side_by_side, verdicts
+from bladerub.extras.variations.verdicts import margins, side_by_side, verdicts
 from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.polar import wear_profiles
@@ -138,7 +137,7 @@ def test_every_figure_and_page_is_made(study, sound, kind, accuracy, tmp_path):
         write_map(path, coating, {})
         rows = [ManifestRow(f"{f}.h5", f, "key", "completed", 1) for f in coating.f_omega]
         write_manifest(path.with_suffix(".tsv"), rows)
-    figures.append(verdicts(side_by_side(margins.table(study, paths, accuracy), by="variation")))
+    figures.append(verdicts(side_by_side(margins(study, paths, accuracy), by="variation")))
     for figure in figures:
         figure.draw_without_rendering()
     page = build(paths, manifests, made["peaks"], made["divergence"], PAGE | {"spectrum_revolutions": 10}, [])

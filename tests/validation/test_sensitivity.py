@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from bladerub.extras.variations.sensitivity import indices
+from bladerub.extras.variations.robustness import indices
 
 
 @pytest.fixture

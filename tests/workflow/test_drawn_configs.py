@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, read
-from bladerub.extras.chart.point import check
+from bladerub.extras.chart.plan import check
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import ROOT
 

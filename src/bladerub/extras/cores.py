@@ -19,6 +19,19 @@ ON_RIGID_CASING = 7
 STIFF, EXPONENT = 12.0, 0.6
 """E / f_omega from which on the time of a run grows, as its steps do, and the power by which it does."""
 
+SECONDS_PER_REVOLUTION = 0.0014
+"""Of one core, for a run of the paper's blade on a soft coating, with the other core at work: the jobs of
+the 42 softest coatings of the study (docs/data/cost.csv), and a tenth more."""
+
+GROWING = 0.09
+"""Share of the runs that grow, and go on to the longer length (the study's 63 coatings)."""
+
+SECONDS_PER_JOB = 3
+"""Of one core, to start Snakemake and the job and to draw, collect or analyse; rounded up."""
+
+SECONDS_AT_FIRST = {"blade": 10, "compile_kernel": 10}
+"""Of one core, for the jobs that are made once, by their rule."""
+
 
 class Costs(NamedTuple):
     """What the jobs of each coating of a study cost, by its name, in runs on a soft coating."""
@@ -37,20 +50,15 @@ class Costs(NamedTuple):
         return threads_for(cost, self.total, cores)
 
     def priority(self, coating: str) -> float:
-        """Priority, below 1, of the runs of a `coating`: the more it and what follows cost, the higher.
-
-        Those that take longest so come first and none of them is left at the end, with the other cores idle.
-        Zero for a coating that is run on request.
-        """
+        """Priority, below 1, of the runs of a `coating`: those that take longest come first."""
         of_coating = sum(part.get(coating, 0) for part in (self.runs, *self.further.values()))
         return of_coating / (1 + self.total)
 
 
 def threads_for(cost: float, total: float, cores: int | None) -> int:
-    """Return the threads of a job that has `cost` of the `total` of all jobs, on so many `cores`.
+    """Return the threads of a job that has `cost` of the `total` of all jobs, on so many `cores`, if known.
 
-    One where these are not known (None), and unless the job is a large part of what a core has to do: it
-    would end long after all others.
+    One, unless the job is a large part of what a core has to do: it would end long after all others.
     """
     if not cores:
         return 1

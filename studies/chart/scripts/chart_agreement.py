@@ -4,7 +4,7 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extras.chart.check import agreement
+from bladerub.extras.chart.table import agreement
 from bladerub.io import tables
 
 compared = agreement(tables.read(snakemake.input.chart), tables.read(snakemake.input.placement))

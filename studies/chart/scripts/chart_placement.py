@@ -4,9 +4,9 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extras.chart.check import summary, table
+from bladerub.extras.chart.table import placement, placement_summary
 from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
 
-compared = table(typed(snakemake.config), map(read_map, snakemake.input.maps))
-outputs.save(snakemake, table=compared, summary=summary(compared))
+compared = placement(typed(snakemake.config), map(read_map, snakemake.input.maps))
+outputs.save(snakemake, table=compared, summary=placement_summary(compared))

@@ -11,7 +11,6 @@ import pandas as pd
 from bladerub.extras.variations.verdicts import counts, side_by_side, verdicts
 from bladerub.io import tables
 
-paths = [Path(path) for path in snakemake.input.verdicts]
-of_sets = [tables.read(path).assign(set=path.parent.name) for path in paths]
-table = pd.concat(of_sets, ignore_index=True)
+paths = map(Path, snakemake.input.verdicts)
+table = pd.concat([tables.read(p).assign(set=p.parent.name) for p in paths], ignore_index=True)
 outputs.save(snakemake, verdicts(side_by_side(table, by="set")), table=table, counts=counts(table))

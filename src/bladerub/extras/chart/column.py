@@ -32,10 +32,7 @@ def chart_digest() -> str:
 
 
 def determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> str:
-    """Digest all that determines the file of the point of a coating but the blade.
-
-    Other points, and the coatings of the study, have no part in it.
-    """
+    """Digest all that determines the file of the point of a coating but the blade."""
     return digest(
         {
             "runs": run_determinants(config, case, speeds),
@@ -48,10 +45,7 @@ def determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> str:
 
 
 def run_determinants(config: Config, case: CoatingCase, speeds: ChartSpeeds) -> str:
-    """Digest what determines the runs of a coating, and what is kept of them, but the blade.
-
-    The speeds that the search chooses have no part in it.
-    """
+    """Digest what determines its runs, whichever speeds the search chooses, and what is kept of them."""
     analysis = config.analysis
     return digest(
         solver_of(config).determinants()
@@ -87,10 +81,8 @@ def compute_missing(
 ) -> list[PointRow]:
     """Compute those points of a column whose file is missing or stale, as `bladerub.study.job` does runs.
 
-    `plan` is of `plan_column`, `blade_digest` of `bladerub.study.cache`, `folder` that of the points of the
-    whole chart; `report` is called with a line for a log after each computed point, and before waiting.
-    `threads` points are computed at once, or all together by a solver that does so. The rows
-    are for `bladerub.study.manifest.write_manifest`.
+    `plan` is of `plan_column`, `folder` that of the points of the whole chart. `threads` points are computed
+    at once, or all together by a solver that does so. The rows are for the manifest of the column.
     """
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     solver = solver_of(config)

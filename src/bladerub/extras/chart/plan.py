@@ -8,19 +8,19 @@
    coatings of a smaller one.
 
 Engine orders, revolutions and all else of a run stay: its results are those of the whole chart. The plan
-follows from the config alone, by the constants of `bladerub.extras.job_times`. On another machine, or with a
+follows from the config alone, by the constants of `bladerub.extras.cores`. On another machine, or with a
 blade of another cost, the chart takes longer or shorter, but is the same.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.extras.chart.point import ChartSpeeds, nearest_speeds
-from bladerub.extras.cores import run_cost
-from bladerub.extras.job_times import GROWING, SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION
+from bladerub.config.checks import casing_problems, reads
+from bladerub.extras import cores
+from bladerub.extras.chart.point import ChartSpeeds, chart_orders, nearest_speeds
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
@@ -37,6 +37,24 @@ _JOBS_IN_TURN = 3  # of these, each after the one before
 _FEWEST = 2  # moduli of either kind: a chart is between four coatings
 
 
+@reads("casings", "contact", "blade", "chart")
+def problems(config: Config) -> Iterator[str]:
+    """Yield what is wrong with the casing of the chart, whose coatings have its interference."""
+    yield from casing_problems(config, config.chart.casing)
+
+
+def check(config: Config) -> None:
+    """Raise `BadInput` if the chart has no speeds, or an engine order no crossing."""
+    highest, lowest = config.speeds.stop, min(chart_orders(config))
+    if (start := config.chart.speeds.start) >= highest:
+        raise BadInput(f"chart.speeds.start = {start:g}: must be below speeds.stop = {highest:g}")
+    if lowest * highest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
+        raise BadInput(
+            f"speeds.stop = {highest:g}: must be at least {1 / lowest:g} for the chart, or engine order "
+            f"{lowest} does not cross the first frequency"
+        )
+
+
 class Plan(NamedTuple):
     """Part of the chart, its coatings being all combinations with each θ."""
 
@@ -46,10 +64,7 @@ class Plan(NamedTuple):
 
 
 def plan(config: Config) -> Plan:
-    """Choose the part of the chart that the config grants minutes for.
-
-    Raises `BadInput`, naming the key, if they are too few for the smallest chart.
-    """
+    """Choose the part of the chart that the config grants minutes for; `BadInput` if they are too few."""
     E, K = config.chart.E, config.chart.K
     minutes = config.chart.minutes or math.inf
     for multiple in (1, _FARTHER):
@@ -86,13 +101,13 @@ def expected_minutes(config: Config, plan: Plan) -> float:
     chart, speeds = config.chart, nearest_speeds(config, plan.multiple)
     halvings = max(0.0, math.log2(plan.multiple * chart.speeds.step / config.speeds.step))
     runs = speeds.coarse.sum() + RUNS_PER_HALVING * halvings
-    longer = GROWING * speeds.uniform.sum() * config.analysis.divergence.confirmation_revolutions
+    longer = cores.GROWING * speeds.uniform.sum() * config.analysis.divergence.confirmation_revolutions
     revolutions = runs * config.solver.revolutions + longer
-    weights = [run_cost(E, speeds.f_omega[speeds.coarse]).mean() for E in plan.E]
+    weights = [cores.run_cost(E, speeds.f_omega[speeds.coarse]).mean() for E in plan.E]
     n_columns = len(chart.theta) * len(plan.E)
-    simulated = len(chart.theta) * len(plan.K) * sum(weights) * revolutions * SECONDS_PER_REVOLUTION
-    in_turn = max(SECONDS_AT_FIRST.values()) + _JOBS_IN_TURN * SECONDS_PER_JOB
-    shared = simulated + (n_columns + _JOBS) * SECONDS_PER_JOB
+    simulated = len(chart.theta) * len(plan.K) * sum(weights) * revolutions * cores.SECONDS_PER_REVOLUTION
+    in_turn = max(cores.SECONDS_AT_FIRST.values()) + _JOBS_IN_TURN * cores.SECONDS_PER_JOB
+    shared = simulated + (n_columns + _JOBS) * cores.SECONDS_PER_JOB
     return (in_turn + shared / (chart.cores or CORES)) / 60
 
 
@@ -101,11 +116,8 @@ def in_words(config: Config) -> str:
     chart, planned = config.chart, plan(config)
     part, all_coatings = (len(chart.theta) * len(moduli.E) * len(moduli.K) for moduli in (planned, chart))
     farther = "" if planned.multiple == 1 else f", at speeds {planned.multiple} times as far apart"
-    minutes, cores = expected_minutes(config, planned), chart.cores or CORES
-    return (
-        f"chart: {part:,} of {all_coatings:,} coatings{farther}; about {minutes:.1f} min on {cores} cores, "
-        "were nothing computed yet"
-    )
+    minutes = f"about {expected_minutes(config, planned):.1f} min on {chart.cores or CORES} cores"
+    return f"chart: {part:,} of {all_coatings:,} coatings{farther}; {minutes}, were nothing computed yet"
 
 
 def _from_the_ends(values: Sequence[float]) -> list[float]:

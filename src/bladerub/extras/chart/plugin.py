@@ -1,5 +1,5 @@
 """A chart of many coatings."""
 
 SECTIONS = {"chart": "extras.chart.settings:CHART"}
-AGREEMENTS = {"chart": "extras.chart.agreement:problems"}
+AGREEMENTS = {"chart": "extras.chart.plan:problems"}
 MANIFESTS = {"columns": "extras.chart.point:PointRow"}

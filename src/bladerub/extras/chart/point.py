@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.io import hdf5
-from bladerub.io.errors import BadInput, DamagedFile
+from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -64,10 +64,7 @@ class ChartSpeeds(NamedTuple):
 
 
 def nearest_speeds(config: Config, multiple: int = 1) -> ChartSpeeds:
-    """Choose the speeds of the study that are nearest to the even ones of ``chart.speeds``.
-
-    The even ones are `multiple` times as far apart as the config says.
-    """
+    """Choose the speeds nearest to the even ones of ``chart.speeds``, `multiple` times as far apart."""
     f_omega, settings = np.array(speeds(config)), config.chart.speeds
     start, stop, dense_stop = settings.start, f_omega[-1], min(settings.dense_stop, f_omega[-1])
     uniform = _nearest(f_omega, np.arange(start, stop + 1e-9, multiple * settings.step))
@@ -79,21 +76,6 @@ def _nearest(f_omega: np.ndarray, even: np.ndarray) -> np.ndarray:
     mask = np.zeros(f_omega.size, dtype=bool)
     mask[np.abs(f_omega - even[:, None]).argmin(axis=1)] = True
     return mask
-
-
-def check(config: Config) -> None:
-    """Raise `BadInput`, naming the key, if the chart has no speeds, or an engine order no crossing with C1.
-
-    Studies without a chart need neither.
-    """
-    highest, lowest = config.speeds.stop, min(chart_orders(config))
-    if (start := config.chart.speeds.start) >= highest:
-        raise BadInput(f"chart.speeds.start = {start:g}: must be below speeds.stop = {highest:g}")
-    if lowest * highest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
-        raise BadInput(
-            f"speeds.stop = {highest:g}: must be at least {1 / lowest:g} for the chart, or engine order "
-            f"{lowest} does not cross the first frequency"
-        )
 
 
 class PointRow(NamedTuple):
@@ -128,10 +110,7 @@ class ChartPoint:
 
 
 def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: Config) -> None:
-    """Write `point` to `path` under its `key`, whole or not at all.
-
-    `runs_key` is that of its runs, whichever of their speeds the search chose.
-    """
+    """Write `point` under its `key`, and that of its runs, whichever of their speeds the search chose."""
     described = _DATASETS | {name: (unit, f"{what}; NaN: not run") for name, (unit, what) in MEASURES.items()}
     values = vars(point) | point.measures | {"uniform": point.uniform.astype(np.int8)}
     dims = {"spectrum_order": ("spectrum_order",), "spectrum_amplitude": ("f_omega", "spectrum_order")}

@@ -4,7 +4,7 @@
    `bladerub.study.peaks`, and the greatest displacement over all speeds.
 2. The intervals on both sides of each local maximum are halved until the neighbours on the grid are run.
    Local maxima below a set share of the greatest are left as they are. The peaks are ragged, so that a low
-   local maximum may hide a higher peak; `bladerub.extras.chart.check` measures how often it does.
+   local maximum may hide a higher peak; `bladerub.extras.chart.table.placement` measures how often it does.
 3. Each run is the study's run of that coating and speed, and is measured as there.
 4. Divergence is judged at the uniform speeds alone, as in `bladerub.study.growth`, with the longer run where
    the amplitude grows: the search must not weigh in the share of divergent speeds. The longer runs are made
@@ -39,10 +39,7 @@ def compute(
     searches: Mapping[CoatingCase, Search],
     solve: Callable[[Sequence[RunSpec]], Iterable[tuple[int, RunResult, float]]],
 ) -> Iterator[tuple[CoatingCase, ChartPoint]]:
-    """Carry out searches together; yield each point, with its coating, as it is complete.
-
-    `solve` is `bladerub.study.solver.Solver.simulate_many` of a blade.
-    """
+    """Carry out searches together by `solve`; yield each point, with its coating, as it is complete."""
     pending = {case: next(generator) for case, generator in searches.items()}
     while pending:
         solved = sorted(solve([spec for specs in pending.values() for spec in specs]))
@@ -63,42 +60,30 @@ def search(
     C1: np.ndarray,
     earlier: ChartPoint | None = None,
 ) -> Search:
-    """Search for the maxima of a coating; `C1` (n,) is normalised.
-
-    `earlier` is a point of the same runs, at other of their speeds.
-    """
-    n, orders = speeds.f_omega.size, chart_orders(config)
-    point = ChartPoint(
-        case=case,
-        f_omega=speeds.f_omega,
-        C1=C1,
-        spectrum_order=np.array(orders, dtype=float),
-        spectrum_amplitude=np.full((n, len(orders)), np.nan),
-        uniform=speeds.uniform,
-        measures={name: np.full(n, np.nan) for name in MEASURES},
-    )
+    """Search for the maxima of a coating; `earlier` is a point of the same runs, at other of their speeds."""
+    f_omega, orders = speeds.f_omega, chart_orders(config)
+    amplitude = np.full((f_omega.size, len(orders)), np.nan)
+    measures = {name: np.full(f_omega.size, np.nan) for name in MEASURES}
+    point = ChartPoint(case, f_omega, C1, np.array(orders, float), amplitude, speeds.uniform, measures)
     analysis, share = config.analysis, config.chart.speeds.refine_above
     pending = np.flatnonzero(speeds.coarse).tolist()
     uniform: dict[int, tuple[RunSpec, np.ndarray, str]] = {}  # what tells whether runs diverge
     while pending:
         to_run = [index for index in pending if not _taken_over(point, earlier, index)]
-        specs = [run_spec(config, case, point.f_omega[index]) for index in to_run]
+        specs = [run_spec(config, case, f_omega[index]) for index in to_run]
         for index, spec, result in zip(to_run, specs, (yield specs), strict=True):
-            point.spectrum_amplitude[index] = _amplitudes(analysis, orders, spec, result)
+            amplitude[index] = _amplitudes(analysis, orders, spec, result)
             for name, value in _measured(analysis, blade, spec, result).items():
-                point.measures[name][index] = value
-            if point.uniform[index]:
+                measures[name][index] = value
+            if speeds.uniform[index]:
                 uniform[index] = spec, result.revolution_amplitude, result.status
-        pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
+        pending = next_speeds(point.known, sought(config, point, measures["peak"]).values(), share)
     settings = analysis.divergence
     growing = [index for index, (_, *end) in uniform.items() if needs_confirmation(*end, settings)]
     confirmations = yield [confirmation_spec(uniform[index][0], settings) for index in growing]
-    longer = {
-        index: result.revolution_amplitude for index, result in zip(growing, confirmations, strict=True)
-    }
+    longer = dict(zip(growing, (result.revolution_amplitude for result in confirmations), strict=True))
     for index, (_, *end) in uniform.items():
-        verdict = judge(*end, settings, longer.get(index))
-        point.measures["divergent"][index] = float(verdict.divergent)
+        measures["divergent"][index] = float(judge(*end, settings, longer.get(index)).divergent)
     return point
 
 
@@ -115,10 +100,7 @@ def _taken_over(point: ChartPoint, earlier: ChartPoint | None, index: int) -> bo
 
 
 def sought(config: Config, response: Response, peak: np.ndarray) -> dict[str, np.ndarray]:
-    """Curves (n,) over speed whose maxima are sought, by column of the chart; NaN where not sought or run.
-
-    `peak` (n,) is the greatest displacement at each speed, m.
-    """
+    """Curves (n,) over speed whose maxima are sought, by column of the chart; NaN where not sought or run."""
     settings, orders = config.analysis.peaks, chart_orders(config)
     amplitudes = {f"Y{order}": amplitude_in_window(response, order, settings) for order in orders}
     return amplitudes | {"peak": peak}
@@ -127,11 +109,9 @@ def sought(config: Config, response: Response, peak: np.ndarray) -> dict[str, np
 def next_speeds(computed: np.ndarray, curves: Iterable[np.ndarray], share: float) -> list[int]:
     """Return the speeds to run next, as ascending indices into the grid; none once all maxima are enclosed.
 
-    `computed` (n,) are the speeds that were run, `curves` (n,) the quantities whose maxima are sought, NaN
-    where not; local maxima below `share` of the greatest are left as they are.
+    `computed` (n,) are the speeds that were run; maxima below `share` of the greatest are left as they are.
     """
-    indices = np.flatnonzero(computed)
-    midpoints: set[int] = set()
+    indices, midpoints = np.flatnonzero(computed), set()
     for curve in curves:
         values = np.nan_to_num(curve[indices], nan=-np.inf)
         if not np.isfinite(values).any():

@@ -7,8 +7,8 @@ from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any
 
-from bladerub.extras import inventory, job_times
-from bladerub.extras.cores import costs_of
+from bladerub.extras import inventory
+from bladerub.extras.cores import GROWING, SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION, costs_of
 from bladerub.io.errors import message_for
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases
@@ -54,10 +54,8 @@ def forecast(
 ) -> str:
     """Say in a line how many runs of the study are missing, stale or corrupt, and what the `jobs` cost.
 
-    These are all that are planned, as pairs of their rule and the coating of its wildcards. Without `cores`,
-    of which Snakemake tells a dry run nothing, the time is that of one. `plan_of` gives the plan of a coating
-    by its name, where the caller has it already. Of the `simulating` rules those whose time is not known are
-    named.
+    These are pairs of rule and coating. Without `cores`, of which Snakemake tells a dry run nothing, the time
+    is that of one. Of the `simulating` rules those whose time is not known are named.
     """
     results, jobs = Path(config.results), list(jobs)
     digest, _ = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
@@ -71,9 +69,8 @@ def forecast(
     n_runs, state = sum(missing.values()), "missing, and not asked for"
     if any(missing[name] for name in asked & missing.keys()):
         n_runs, state = sum(missing[name] for name in asked & missing.keys()), "to be computed"
-    runs = f"{n_runs:,} of {total['planned']:,} runs of the study are {state}"
-    if not n_runs:
-        runs = f"all {total['planned']:,} runs of the study are done"
+    planned = f"{total['planned']:,} runs of the study are"
+    runs = f"{n_runs:,} of {planned} {state}" if n_runs else f"all {planned} done"
     if further := len(asked - missing.keys()):
         runs += f", and those of {further} coating{'s' * (further > 1)} beside it are asked for"
     if digest and total["done"] and "blade" in dict(jobs):
@@ -85,7 +82,7 @@ def forecast(
     simulated = seconds = 0.0
     left = {name: 1 - count["done"] / count["planned"] for name, count in counts.items()}
     for rule, coating in jobs:
-        seconds += job_times.SECONDS_PER_JOB + job_times.SECONDS_AT_FIRST.get(rule, 0)
+        seconds += SECONDS_PER_JOB + SECONDS_AT_FIRST.get(rule, 0)
         if rule == "coating":
             simulated += left.get(coating, 1) * (row.blades if row else 1) * costs.runs.get(coating, mean)
         elif rule in costs.further:  # of a coating whose own runs are done, what was listed once is too
@@ -93,7 +90,7 @@ def forecast(
             simulated += 0 if is_listed and not left[coating] else costs.further[rule].get(coating, 0)
     revolutions = config.solver.revolutions
     longer = max(config.analysis.divergence.confirmation_revolutions - revolutions, 0)
-    seconds += simulated * (revolutions + job_times.GROWING * longer) * job_times.SECONDS_PER_REVOLUTION
+    seconds += simulated * (revolutions + GROWING * longer) * SECONDS_PER_REVOLUTION
     minutes = max(seconds / 60 / (cores or 1), 1)
     machine = f"on {cores} cores" if cores and cores > 1 else "of one core"
     unknown = sorted(set(simulating) - {"coating", *costs.further})

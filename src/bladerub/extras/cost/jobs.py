@@ -23,12 +23,9 @@ COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
 
 
 def table(benchmarks: str | Path, others: Iterable[str] = ()) -> pd.DataFrame:
-    """Collect the records of the last execution of each job, a row a job.
+    """Collect the last records of all jobs of the rules of `STAGES` and `others`, a row a job.
 
-    They are in the folder `benchmarks`: ``<rule>.tsv``, or ``<rule>/<job>.tsv``. Besides the rules of
-    `STAGES` they are of `others`, each a stage of its own. `COLUMNS`: ``job`` is empty for a rule of one job.
-    CPU time and largest memory are those of the job's process and its children; NaN where a job was too short
-    to be measured. A record that breaks off is left out; the log says so.
+    In the folder `benchmarks` they are ``<rule>.tsv``, or ``<rule>/<job>.tsv``.
     """
     rows, stage_of = [], {rule: rule for rule in others} | STAGES
     for path in sorted(Path(benchmarks).rglob("*.tsv")):
@@ -46,10 +43,7 @@ def table(benchmarks: str | Path, others: Iterable[str] = ()) -> pd.DataFrame:
 
 
 def by_stage(costs: pd.DataFrame) -> pd.DataFrame:
-    """Sum up the jobs of `table` by stage, in the order of the workflow.
-
-    The columns are ``jobs``, ``cpu_s`` and their ``share``, and the largest ``memory_mb`` of a job.
-    """
+    """Sum up the jobs of `table` by stage, in the order of the workflow, and their share of the time."""
     grouped = costs.groupby("stage").agg(
         jobs=("rule", "size"), cpu_s=("cpu_s", "sum"), memory_mb=("memory_mb", "max")
     )

@@ -95,26 +95,20 @@ def with_runs(
 
 
 def of_peaks(config: Config, maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> pd.DataFrame:
-    """Find the peaks of every coating, as `bladerub.study.peak_table.table`, with `PEAK_COLUMNS`.
-
-    The last column, ``modulus_unit``, is what E = 1 and K = 1 are, Pa.
-    """
+    """Find the peaks of every coating, with `PEAK_COLUMNS` and what E = 1 and K = 1 are, Pa."""
     refined = [ensemble.refined for ensemble in ensembles]
     peaks = peak_table.table(config, maps)
     *drawn, finer = (
         peak_table.table(config, with_runs(maps, ensembles, runs)) for runs in [*draws(ensembles), refined]
     )
-    table = peaks.assign(draws=1 + len(drawn))
+    table, cases = peaks.assign(draws=1 + len(drawn)), {runs.case for runs in refined}
+    orders = [(coating.case, peak_settings(config, coating.case.casing).orders) for coating in maps]
+    is_refined = [case in cases for case, of_case in orders for _ in of_case]
     for name in ("f_peak", "amplitude"):
         bands = [band(values) for values in np.transpose([draw[name] for draw in (peaks, *drawn)])]
         table = table.join(pd.DataFrame(bands, index=table.index).add_prefix(f"{name}_"))
-    cases = {runs.case for runs in refined}
-    is_refined = [
-        coating.case in cases for coating in maps for _ in peak_settings(config, coating.case.casing).orders
-    ]
-    for name in ("f_peak", "amplitude"):
         table[f"{name}_error"] = (ERROR * (finer[name] - table[name]).abs()).where(is_refined)
-    return table.assign(modulus_unit=modulus_unit(config))
+    return table[[*peaks.columns, *PEAK_COLUMNS]].assign(modulus_unit=modulus_unit(config))
 
 
 def of_runs(config: Config, maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> pd.DataFrame:
@@ -129,11 +123,9 @@ def _run_bands(
 ) -> Iterator[dict[str, Any]]:
     """Yield a row for each speed of the ensembles of one coating."""
     coating = maps[ensemble.members[0].case]
-    places, study_verdicts = ensemble.places(coating), divergence.verdicts(config, coating)
-    verdicts = [
-        [study_verdicts[i] for i in places],
-        *(divergence.verdicts(config, member) for member in ensemble.members),
-    ]
+    places = ensemble.places(coating)
+    verdicts = [divergence.verdicts(config, runs) for runs in (coating, *ensemble.members)]
+    verdicts[0] = [verdicts[0][place] for place in places]
     max_wear = np.stack([coating.max_wear[places], *(member.max_wear for member in ensemble.members)])
     lobes = np.stack([coating.lobes[places], *(member.lobes for member in ensemble.members)])
     followed = np.isin(coating.f_omega[places], judged(config, coating))
@@ -164,11 +156,7 @@ def of_findings(
     maps: Sequence[CoatingMap],
     ensembles: Sequence[Ensemble],
 ) -> pd.DataFrame:
-    """Judge every claim of the `table` of findings on each draw, with columns as of ``claim_draws.csv``.
-
-    ``draws`` are all but the first, the study itself, which would agree with itself; ``share_of_draws`` is
-    that of the draws with its verdict, and ``holds_refined`` the verdict with refined runs.
-    """
+    """Judge every claim of the `table` of findings on each draw but the first, the study itself."""
     claims = [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
     keys = ["casing", "E", "K", "theta", "law", "f_omega"]
     runs = plain(divergence.table(config, maps)).set_index(keys)

@@ -74,8 +74,11 @@ OVER_SPEED = tuple(
 )
 """Datasets of a map that differ between members."""
 
+SHARED = tuple(name for name in maps.DATASETS if name not in (*OVER_SPEED, "wear_node"))
+"""Datasets that are the same of all."""
+
 REFINED = 2
-"""Steps of a refined run, over those of a run of the study."""
+"""Steps of a refined run, over those of a run of the study: members that it counts as."""
 
 _REFINED = "refined_"
 _LONGER = maps.DATASETS["confirmation_amplitude"][0][-1]
@@ -90,10 +93,7 @@ def starts(settings: Settings, case: CoatingCase, f_omega: float, members: int) 
 
 
 def expected_cost(config: Config, case: CoatingCase) -> int:
-    """Count the members of a coating before its peaks are known, as if no two were next to each other.
-
-    Refined runs count as `REFINED`.
-    """
+    """Count the members of a coating before its peaks are known, as if no two were next to each other."""
     if not config.ensemble.members:
         return 0
     f_omega = np.array(speeds(config))
@@ -103,12 +103,8 @@ def expected_cost(config: Config, case: CoatingCase) -> int:
 
 def refined(spec: RunSpec) -> RunSpec:
     """Return the run with a quarter of its tolerance, and half of steps that it has by itself."""
-    return replace(
-        spec,
-        tolerance=spec.tolerance / 4,
-        steps_per_element=2 * spec.steps_per_element,
-        max_time_step=spec.max_time_step / 2,
-    )
+    steps, longest = 2 * spec.steps_per_element, spec.max_time_step / 2
+    return replace(spec, tolerance=spec.tolerance / 4, steps_per_element=steps, max_time_step=longest)
 
 
 def plan(config: Config, coating: CoatingMap) -> list[CoatingPlan]:
@@ -117,13 +113,13 @@ def plan(config: Config, coating: CoatingMap) -> list[CoatingPlan]:
     followed = set(judged(config, coating).tolist())
     for f in chosen(config, coating).tolist():
         spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings.members)
-        specs = {
-            f"{speed_name(f)}_{number}.h5": replace(spec, initial_displacement=start)
-            for number, start in enumerate(drawn.tolist(), 1)
-        }
-        specs[f"{speed_name(f)}_refined.h5"] = refined(spec)
+        specs = {n: replace(spec, initial_displacement=start) for n, start in enumerate(drawn.tolist(), 1)}
+        specs["refined"] = refined(spec)
         runs.append(
-            [planned_run(config, run, file, False, row, follow=f in followed) for file, run in specs.items()]
+            [
+                planned_run(config, run, f"{speed_name(f)}_{name}.h5", False, row, follow=f in followed)
+                for name, run in specs.items()
+            ]
         )
     return [CoatingPlan(case, member) for member in zip(*runs, strict=True)]
 
@@ -141,7 +137,7 @@ def make(
     """Compute the members of a coating that are missing or stale, and collect all in the file `path`.
 
     Returns the rows of their manifest. `coating` is its map, `runs_folder` that of its runs; other parameters
-    are those of `bladerub.study.job.compute_missing`. Raises `BadInput` if the config asks for no members.
+    are those of `bladerub.study.job.compute_missing`.
     """
     if not config.ensemble.members:
         raise BadInput("ensemble.members = 0: must be at least 1, or there is no ensemble to make")
@@ -162,11 +158,8 @@ def make(
 def write(path: str | Path, ensemble: Ensemble, origin: Mapping[str, str]) -> None:
     """Write the ensembles of a coating to the file `path`; `origin` is its provenance."""
     first = ensemble.members[0]
-    variables = {
-        name: Variable(dims, getattr(first, name), unit, long_name)
-        for name, (dims, unit, long_name) in maps.DATASETS.items()
-        if name not in (*OVER_SPEED, "wear_node")
-    }
+    described = maps.variables(first)
+    variables = {name: described[name] for name in SHARED}
     start = "radial displacement of node 1 at the start"
     variables["start"] = Variable(("member", "f_omega"), ensemble.start, "m", start)
     for name in OVER_SPEED:
@@ -186,7 +179,7 @@ def read(path: str | Path) -> Ensemble:
     """Read what `write` has written; raises `OSError`, naming the file, if it is missing or damaged."""
     data, attributes = hdf5.read(path)
     try:
-        shared = {name: data[name] for name in maps.DATASETS if name not in (*OVER_SPEED, "wear_node")}
+        shared = {name: data[name] for name in SHARED}
         case, start = CoatingCase.described(attributes), data["start"]
         of_members = [{name: data[name][member] for name in OVER_SPEED} for member in range(len(start))]
         of_refined = {name: data[_REFINED + name] for name in OVER_SPEED}

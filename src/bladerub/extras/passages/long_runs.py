@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 import pandas as pd
@@ -35,24 +36,32 @@ DIED_OUT = 0.01
 """Share of the greatest amplitude below which a vibration has died out."""
 
 
+_HALF_RANGE = "half the range of the radial displacement of node 1 in each revolution"
+_RUNS, _REVOLUTIONS = ("run",), ("run", "revolution_number")
+
+
 @dataclass(frozen=True)
 class LongRuns:
-    """The n long runs of one coating, of r revolutions."""
+    """The n long runs of one coating, of r revolutions; NaN after an unbounded end."""
 
     case: CoatingCase
-    f_omega: np.ndarray  # (n,), normalised
-    why: np.ndarray  # (n,) of str: ``grows``, or the peak that a run is of, such as ``f4``
-    revolution_amplitude: np.ndarray  # (n, r), half the range of u_r of node 1, m; NaN after an unbounded end
-    max_wear: np.ndarray  # (n,), m
-    status: np.ndarray  # (n,) of str: completed or unbounded
-    seconds: np.ndarray  # (n, r), wall time until the end of each revolution; NaN likewise
+    f_omega: Annotated[np.ndarray, _RUNS, "1", "rotational frequency, normalised"]
+    why: Annotated[np.ndarray, _RUNS, "1", "why it was made"]  # ``grows``, or the peak, such as ``f4``
+    revolution_number: Annotated[np.ndarray, _REVOLUTIONS[1:], "1", "revolution, counted from 1"]
+    revolution_amplitude: Annotated[np.ndarray, _REVOLUTIONS, "m", _HALF_RANGE]
+    max_wear: Annotated[np.ndarray, _RUNS, "m", "greatest worn depth"]
+    status: Annotated[np.ndarray, _RUNS, "1", "completed or unbounded"]
+    seconds: Annotated[np.ndarray, _REVOLUTIONS, "s", "wall time until the end of each revolution"]
+
+
+DATASETS = {field.name: field.type.__metadata__ for field in fields(LongRuns) if field.name != "case"}
+"""Dimensions, unit and meaning of each dataset."""
 
 
 def chosen(config: Config, coating: CoatingMap) -> dict[float, str]:
     """Choose the runs of a coating that are repeated for longer: the reason for each, by speed.
 
-    These are its peaks, or where its orders meet C1 if it has none, and the completed runs that still grow at
-    the end of the longest that the study has.
+    These are its peaks, or where its orders meet C1 if it has none, and the completed runs that still grow.
     """
     peaks = peak_settings(config, coating.case.casing)
     reasons = {
@@ -67,10 +76,7 @@ def chosen(config: Config, coating: CoatingMap) -> dict[float, str]:
 def make(
     config: Config, coating: CoatingMap, blade: ReducedBlade, path: str | Path, report: Callable[[str], None]
 ) -> None:
-    """Compute the long runs of a coating, of ``long_runs.revolutions``, and write them to the file `path`.
-
-    `report` is called with a line after each run.
-    """
+    """Compute the long runs of a coating, of ``long_runs.revolutions``, and write them to the file `path`."""
     # or the time of the first run would include the loading of the machine code
     compile_kernel(bool(config.contact.tip_turns), blade.n_interface, element_law(config))
     case, revolutions = coating.case, config.long_runs.revolutions
@@ -80,18 +86,12 @@ def make(
         spec = replace(run_spec(config, case, f_omega), revolutions=revolutions)
         results.append(simulate(blade, spec, _stopwatch(elapsed)))
         report(f"{f_omega:.4f} ({why}): {results[-1].message}")
-    over_runs, over_time, number = ("run",), ("run", "revolution_number"), np.arange(1, revolutions + 1)
     amplitude = np.stack([result.revolution_amplitude for result in results])
-    deepest = [result.wear.max() for result in results]
-    half_range = "half the range of the radial displacement of node 1 in each revolution"
+    max_wear, status = zip(*((result.wear.max(), result.status) for result in results), strict=True)
+    speeds, why = list(reasons), list(reasons.values())
+    long = LongRuns(case, speeds, why, np.arange(1, revolutions + 1), amplitude, max_wear, status, seconds)
     variables = {
-        "f_omega": Variable(over_runs, list(reasons), "1", "rotational frequency, normalised"),
-        "why": Variable(over_runs, list(reasons.values()), "1", "why it was made"),
-        "revolution_number": Variable(("revolution_number",), number, "1", "revolution, counted from 1"),
-        "revolution_amplitude": Variable(over_time, amplitude, "m", half_range),
-        "max_wear": Variable(over_runs, deepest, "m", "greatest worn depth"),
-        "status": Variable(over_runs, [result.status for result in results], "1", "completed or unbounded"),
-        "seconds": Variable(over_time, seconds, "s", "wall time until the end of each revolution"),
+        name: Variable(dims, getattr(long, name), *about) for name, (dims, *about) in DATASETS.items()
     }
     hdf5.write(path, variables, asdict(case), provenance(config.plain()))
 
@@ -109,9 +109,8 @@ def _stopwatch(elapsed: np.ndarray) -> Callable[[int], None]:
 def read(path: str | Path) -> LongRuns:
     """Read what `make` has written; raises `OSError`, naming the file, if it is missing or damaged."""
     data, about = hdf5.read(path)
-    names = [field.name for field in fields(LongRuns) if field.name != "case"]
     try:
-        return LongRuns(CoatingCase.described(about), **{name: data[name] for name in names})
+        return LongRuns(CoatingCase.described(about), **{name: data[name] for name in DATASETS})
     except KeyError as error:
         raise DamagedFile(f"{path}: no long runs, {error} is missing") from error
 
@@ -127,9 +126,8 @@ def stops(config: Config) -> list[int]:
 def verdict_after(config: Config, amplitude: np.ndarray, revolutions: int) -> tuple[str, Verdict]:
     """Judge the first `revolutions` of a long run.
 
-    It is ``unbounded``, ``divergent``, ``free`` if the vibration has died out because the blade has worn the
-    coating away (`DIED_OUT`), ``saturating`` if it grew in the revolutions of the study and no longer does,
-    or ``steady``.
+    It is ``free`` if the vibration has died out because the blade has worn the coating away (`DIED_OUT`), and
+    ``saturating`` if it grew in the revolutions of the study and no longer does.
     """
     settings, history = config.analysis.divergence, amplitude[:revolutions]
     status = "completed" if np.isfinite(history).all() else "unbounded"
@@ -149,24 +147,16 @@ def table(config: Config, coatings: Iterable[LongRuns]) -> pd.DataFrame:
 
     ``max_wear`` and ``status`` are of the whole run, all else of the revolutions until the stop.
     """
-    last = config.analysis.divergence.revolutions
-    rows = []
+    last, rows = config.analysis.divergence.revolutions, []
     for long in coatings:
         for index, revolutions in itertools.product(range(long.f_omega.size), stops(config)):
             run = {name: getattr(long, name)[index] for name in ("f_omega", "why", "max_wear", "status")}
             amplitude, seconds = long.revolution_amplitude[index], long.seconds[index, :revolutions]
-            name, verdict = verdict_after(config, amplitude, revolutions)
-            finite = np.flatnonzero(np.isfinite(seconds))
-            whole = amplitude[:revolutions][np.isfinite(amplitude[:revolutions])]
-            rows.append(
-                asdict(long.case)
-                | run
-                | {
-                    "revolutions": revolutions,
-                    "verdict": name,
-                    "growth_per_revolution": verdict.growth.per_revolution,
-                    "late_amplitude": whole[-last:].mean() if whole.size else np.nan,
-                    "ms_per_revolution": 1e3 * seconds[finite[-1]] / finite.size if finite.size else np.nan,
-                }
-            )
+            run["verdict"], verdict = verdict_after(config, amplitude, revolutions)
+            seconds, whole = seconds[np.isfinite(seconds)], amplitude[:revolutions]
+            whole = whole[np.isfinite(whole)]
+            run["growth_per_revolution"] = verdict.growth.per_revolution
+            run["late_amplitude"] = whole[-last:].mean() if whole.size else np.nan
+            run["ms_per_revolution"] = 1e3 * seconds[-1] / seconds.size if seconds.size else np.nan
+            rows.append(asdict(long.case) | run | {"revolutions": revolutions})
     return with_variant(pd.DataFrame(rows), COLUMNS)

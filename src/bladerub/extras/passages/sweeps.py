@@ -67,19 +67,15 @@ class SpeedSweep:
 def make(
     config: Config, case: CoatingCase, blade: ReducedBlade, direction: str, rate: float, path: str | Path
 ) -> SweepResult:
-    """Compute one sweep, ``up`` or ``down`` at `rate` (1/s), and write it to the HDF5 file `path`.
-
-    Raises `ValueError`, naming the rate, if the sweep has fewer revolutions than a spectrum.
-    """
+    """Compute one sweep, ``up`` or ``down`` at `rate` (1/s), and write it to the HDF5 file `path`."""
     result = simulate_sweep(blade, sweep_spec(config, case, direction, rate))
-    analysis = config.analysis
-    window, revolutions = analysis.spectrum_revolutions, result.f_omega.size
+    window, revolutions = config.analysis.spectrum_revolutions, result.f_omega.size
     if revolutions < window:
         raise ValueError(
             f"sweeps.rates = {rate:g}: the sweep of {case.name} has {revolutions} revolutions, a spectrum "
             f"needs {window}; must be slower"
         )
-    f_omega, order, amplitude = _spectra(result, window, analysis.max_order)
+    f_omega, order, amplitude = _spectra(result, window, config.analysis.max_order)
     values = vars(result) | {
         "wear": result.wear.astype(np.float32),
         "speed": result.f_omega,
@@ -132,28 +128,21 @@ def table(
 ) -> pd.DataFrame:
     """Compare the peaks of sweeps with those at constant speed, in `maps`: a row per sweep and engine order.
 
-    Both are sought in the same window of speeds (`bladerub.study.peaks`); that of a sweep is NaN if it
-    exceeds the displacement limit before. A peak ``survives`` from the ratio ``sweeps.survival`` of
-    amplitudes on; whether it does is missing where there is none at constant speed.
+    Both are sought in the same window of speeds. A peak ``survives`` from the ratio ``sweeps.survival`` on.
     """
-    settings = config.analysis.peaks
-    rows = []
+    settings, rows = config.analysis.peaks, []
     pairs = ((sweep, order) for sweep in sweeps for order in peak_orders(config, sweep.case.casing))
     for sweep, order in pairs:
         constant = maps[sweep.case]
         at_constant, window = peak(constant, order, settings), speed_window(constant, order, settings)
         swept_peak = maximum(sweep, amplitude_in_window(sweep, order, settings, window))
+        f_end = np.append(np.nan, sweep.speed[np.isfinite(sweep.revolution_peak)])[-1]
         rows.append(
             asdict(sweep.case)
             | {name: getattr(sweep, name) for name in (*_DESCRIBED, "max_wear")}
-            | {
-                "order": order,
-                "f_peak": swept_peak.f_omega,
-                "amplitude": swept_peak.amplitude,
-                "f_peak_constant": at_constant.f_omega,
-                "amplitude_constant": at_constant.amplitude,
-                "f_end": np.append(np.nan, sweep.speed[np.isfinite(sweep.revolution_peak)])[-1],
-            }
+            | {"order": order, "f_peak": swept_peak.f_omega, "amplitude": swept_peak.amplitude}
+            | {"f_peak_constant": at_constant.f_omega, "amplitude_constant": at_constant.amplitude}
+            | {"f_end": f_end}
         )
     table = pd.DataFrame(rows)
     table["ratio"] = table.amplitude / table.amplitude_constant

@@ -115,7 +115,7 @@ def _keys(about: Quantity) -> list[Line2D]:
 def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Limits, unit: float) -> Figure:
     """Draw for each θ which coatings of ``chart.csv`` exceed which of the `limits`.
 
-    `broken` is for the same rows, from `bladerub.extras.chart.choice.broken_limits`; E = 1 is `unit`, Pa.
+    `broken` is for the same rows, from `bladerub.extras.chart.table.broken_limits`; E = 1 is `unit`, Pa.
     """
     lettered = broken.rename(columns=LETTERS)
     judged = chart.assign(broken=broken.sum(axis=1), letters=lettered.dot(lettered.columns))

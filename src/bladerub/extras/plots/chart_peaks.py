@@ -105,7 +105,7 @@ _LABELLED = 6
 def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
     """Draw for each θ the greatest displacement against the greatest worn volume.
 
-    `chart` is ``chart.csv``, `front` is from `bladerub.extras.chart.choice.pareto`.
+    `chart` is ``chart.csv``, `front` is from `bladerub.extras.chart.table.pareto`.
     """
     angles = sorted(chart.theta.unique())
     chart, front = (rows[rows.worn_volume > 0] for rows in (chart, front))  # for the logarithmic axis

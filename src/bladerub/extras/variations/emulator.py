@@ -49,9 +49,8 @@ class Emulator:
     def __init__(
         self, positions: np.ndarray, values: np.ndarray, covariance: openturns.CovarianceModel | None = None
     ):
-        self.positions, self.values = positions, values
+        self.positions, self.values, self.covariance = positions, values, covariance
         self._mean, self._scale = float(values.mean()), float(values.std())
-        self.covariance = covariance
         self._regression = None
         if self._scale > 1e-12 * max(1.0, abs(self._mean)):
             fitted = _fit(positions, (values - self._mean) / self._scale, covariance)
@@ -75,12 +74,12 @@ class Emulator:
 
 def emulators(positions: np.ndarray, measured: pd.DataFrame) -> dict[str, Emulator]:
     """Fit an emulator to each target that enough sets have, at the `positions` (n, d) of these sets."""
-    fits = {}
-    for name, values in measured.items():
-        mask = values.notna().to_numpy()
-        if mask.sum() >= FEWEST:
-            fits[name] = Emulator(positions[mask], values[mask].to_numpy())
-    return fits
+    masks = {name: values.notna().to_numpy() for name, values in measured.items()}
+    return {
+        name: Emulator(positions[mask], measured[name][mask].to_numpy())
+        for name, mask in masks.items()
+        if mask.sum() >= FEWEST
+    }
 
 
 def held_out(emulator: Emulator) -> HeldOut:
@@ -94,11 +93,10 @@ def from_others(
     positions: np.ndarray, values: np.ndarray, fit: Callable[..., Callable[[np.ndarray], Predicted]]
 ) -> Predicted:
     """Predict each of `FOLDS` parts of the sets by what `fit` makes of positions and values of the others."""
-    mean, deviation = np.empty(values.size), np.empty(values.size)
-    fold = np.arange(values.size) % FOLDS
+    mean, deviation = np.empty((2, values.size))
     for part in range(FOLDS):
-        inside, outside = fold != part, fold == part
-        predict = fit(positions[inside], values[inside])
+        outside = np.arange(values.size) % FOLDS == part
+        predict = fit(positions[~outside], values[~outside])
         mean[outside], deviation[outside] = predict(positions[outside])
     return Predicted(mean, deviation)
 
@@ -120,10 +118,9 @@ def _fit(
         covariance = openturns.MaternModel([_FIRST_LENGTH] * n_factors, [1.0], _SMOOTHNESS)
         covariance.setNuggetFactor(_FIRST_NUGGET)
         covariance.activateNuggetFactor(True)
+    points, outputs = openturns.Sample(positions), openturns.Sample(values[:, None])
     basis = openturns.LinearBasisFactory(n_factors).build()
-    algorithm = openturns.GaussianProcessFitter(
-        openturns.Sample(positions), openturns.Sample(values[:, None]), covariance, basis
-    )
+    algorithm = openturns.GaussianProcessFitter(points, outputs, covariance, basis)
     algorithm.setOptimizeParameters(optimise)
     if optimise:
         # the default algorithm stops far from the maximum when there is scatter; the last point of a search
@@ -131,9 +128,7 @@ def _fit(
         search = openturns.TNC()
         search.setCheckStatus(False)
         algorithm.setOptimizationAlgorithm(search)
-        low, high = (
-            [length] * n_factors + [nugget] for length, nugget in zip(_LENGTHS, _NUGGETS, strict=True)
-        )
+        low, high = ([length] * n_factors + [n] for length, n in zip(_LENGTHS, _NUGGETS, strict=True))
         algorithm.setOptimizationBounds(openturns.Interval(low, high))
     algorithm.run()
     return algorithm.getResult()

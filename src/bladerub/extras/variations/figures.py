@@ -24,10 +24,7 @@ _COLUMNS = 5
 
 @style.styled
 def robustness(table: pd.DataFrame, indices: pd.DataFrame) -> Figure:
-    """Draw a row for each claim: the shares of the design on the left, the factors on the right.
-
-    `table` and `indices` are those of `bladerub.extras.variations.robustness`.
-    """
+    """Draw a row for each claim: the shares of the design on the left, the factors on the right."""
     figure = style.new_figure(style.PAGE, 1.6 + 0.155 * len(table))
     shares, factors = figure.subplots(1, 2, sharey=True, width_ratios=(1, 1.5))
     _draw_shares(shares, table)
@@ -45,9 +42,7 @@ def _draw_shares(axes, table: pd.DataFrame) -> None:
         axes.barh(rows, share, left=start, height=0.72, label=word, color=colour)
         start += share
     axes.set_yticks(rows, table.id)
-    axes.set_ylim(len(table) - 0.4, -0.6)
-    axes.set_xlim(0, 100)
-    axes.set_xlabel("share of the design (%)")
+    axes.set(xlim=(0, 100), ylim=(len(table) - 0.4, -0.6), xlabel="share of the design (%)")
     axes.tick_params(axis="y", length=0)
     axes.spines[:].set_visible(False)
 
@@ -82,8 +77,7 @@ def identification(
 ) -> Figure:
     """Draw the targets of all sets above, and what is left of the range of each factor below.
 
-    `measured` has the targets of each set, the study's own first. `points` are points of what is left and
-    `candidates` the best sets, both as fractions of the ranges.
+    The study's own set is the first; `points` are what is left, `candidates` the best sets (range fractions).
     """
     rows, heights = -(-len(plan.factors) // _COLUMNS), 0.14 * measured.shape[1] + 0.8
     figure = style.new_figure(style.PAGE, heights + 1.0 * rows)
@@ -112,8 +106,7 @@ def _draw_targets(axes: Axes, plan: Plan, measured: pd.DataFrame) -> None:
         axes.plot(distance.iloc[0], row, "D", color=style.ORANGE, markersize=4)
     labels = [f"{TARGETS[name].claim}  {name.replace('_', ' ')}" for name in measured]
     axes.set_yticks(range(len(labels)), labels, fontsize=7)
-    axes.set_ylim(len(labels) - 0.4, -0.6)
-    axes.set_xlim(-_BEYOND - 0.3, _BEYOND + 0.3)
+    axes.set(xlim=(-_BEYOND - 0.3, _BEYOND + 0.3), ylim=(len(labels) - 0.4, -0.6))
     axes.axvline(0, color=style.RED, linewidth=0.8)
     axes.set_xlabel("distance from the paper (standard deviations of reading and of another blade)")
     axes.tick_params(axis="y", length=0)
@@ -128,5 +121,4 @@ def _draw_range(axes: Axes, factor: Factor, points: pd.Series, candidates: pd.Se
     unit = "" if factor.unit == "1" else f" ({factor.unit})"
     axes.set_title(f"{points.name.replace('_', ' ')}{unit}", fontsize=8)
     axes.set_xticks([0, 1], [f"{factor.first_value(end):.3g}" for end in (0.0, 1.0)])
-    axes.set_yticks([])
-    axes.set_xlim(0, 1)
+    axes.set(yticks=[], xlim=(0, 1))

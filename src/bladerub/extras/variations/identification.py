@@ -1,4 +1,4 @@
-"""Tables of an identification: sets, what the waves leave, targets, claims that exclude each other."""
+"""Tables of an identification: sets, what the waves leave, targets, exclusive claims, candidates."""
 
 import itertools
 from collections.abc import Iterable, Mapping
@@ -13,7 +13,10 @@ from bladerub.extras.variations.emulator import Emulator, HeldOut, Predicted
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
-from bladerub.study.findings.claim import YES
+from bladerub.study.findings.claim import YES, claim_of
+
+PREDICTED = ("C6", "C9", "C12")
+"""Claims without a target."""
 
 _RARE = 0.05  # a claim that holds in fewer sets says nothing about which others it goes with
 _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusion
@@ -25,29 +28,21 @@ def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
     return table[[name for name in TARGETS if name in table]]
 
 
-def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame:
+def sets(plan: Plan, positions: pd.DataFrame, measured: pd.DataFrame) -> pd.DataFrame:
     """List every simulated set: a row for each factor, with its position and value, and the set's misfit."""
     table = waves.with_values(plan, positions)
-    return table.assign(misfit=table.set.map(misfit))
+    return table.assign(misfit=table.set.map(waves.misfit(measured)))
 
 
 def left(plan: Plan, wave: int, measured: pd.DataFrame, positions: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Find what the waves up to one leave of the ranges, and draw the sets of the next; tables by name.
-
-    `measured` is of the simulated sets of these waves, `positions` of all of them, a row a set.
-    """
+    """Find what the waves up to one leave of the ranges, and draw the sets of the next; tables by name."""
     simulated = positions.loc[measured.index].to_numpy()
     emulators = emulation.emulators(simulated, measured)
     remainder = waves.remaining(plan, emulators)
     drawn, first = waves.draw(plan, wave, remainder, emulators, simulated), plan.first(wave + 1)
-    summary = {
-        "wave": wave,
-        "sets": len(measured),
-        "given_up": remainder.given_up,
-        "remaining": remainder.share,
-    }
+    summary = (wave, len(measured), remainder.given_up, remainder.share)
     return {
-        "left": pd.DataFrame([summary]),
+        "left": pd.DataFrame([summary], columns=["wave", "sets", "given_up", "remaining"]),
         "emulators": _emulated(wave, emulators, remainder),
         "ranges": _ranges(plan, remainder),
         "next_sets": waves.as_table(plan, first, drawn),
@@ -75,10 +70,7 @@ def _predictions(emulators: Mapping[str, Emulator], first: int, drawn: np.ndarra
 
 
 def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
-    """Compare the targets with the paper: a row each.
-
-    `measured` is of all sets, the study's own the first; `predictions` are of sets that were simulated later.
-    """
+    """Compare the targets with the paper; `measured` is of all sets, `predictions` of later ones."""
     rows, implausible = [], waves.implausibility(measured)
     for name, values in measured.items():
         target, of_target = TARGETS[name], predictions[predictions.target == name].set_index("set")
@@ -112,10 +104,7 @@ def _ranges(plan: Plan, remainder: waves.Remaining) -> pd.DataFrame:
 
 
 def exclusions(verdicts: pd.DataFrame) -> pd.DataFrame:
-    """List the pairs of claims that hold together in fewer than half as many sets as by chance.
-
-    ``both`` is the share of the sets in which both hold, ``by_chance`` the product of their own shares.
-    """
+    """List the pairs of claims that hold together in fewer than half as many sets as by chance."""
     holds = verdicts.assign(holds=verdicts.holds == YES).pivot(index="set", columns="id", values="holds")
     rows = []
     for one, other in itertools.combinations(holds.columns, 2):
@@ -126,3 +115,23 @@ def exclusions(verdicts: pd.DataFrame) -> pd.DataFrame:
             rows.append((one, other, shares[one], shares[other], both, chance))
     columns = ["id", "other_id", "share", "other_share", "both", "by_chance"]
     return pd.DataFrame(rows, columns=columns).sort_values("both", ignore_index=True)
+
+
+def of_candidates(plan: Plan, judged: pd.DataFrame) -> pd.DataFrame:
+    """Return the verdicts of the finer studies, whose ``set`` is the number of the pair."""
+    pairs = np.array(plan.candidates.pairs)[judged.set]
+    table = judged.assign(candidate=pairs[:, 0], neighbour=pairs[:, 1])
+    return table[[*waves.CANDIDATE, "id", "holds", "margin"]]
+
+
+def counts(candidates: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
+    """Count the parts that hold for each candidate and neighbour, of the matched claims and of the others."""
+    matched, yes = {target.claim for target in TARGETS.values()}, verdicts.holds == YES
+    counted = verdicts[waves.CANDIDATE].assign(
+        matched_yes=yes & verdicts.id.isin(matched),
+        predicted_yes=yes & verdicts.id.map(claim_of).isin(PREDICTED),
+        yes=yes,
+        parts=True,
+    )
+    summed = counted.groupby(waves.CANDIDATE).sum().astype(int).reset_index()
+    return candidates[waves.CANDIDATES].drop_duplicates().merge(summed, on=waves.CANDIDATE)

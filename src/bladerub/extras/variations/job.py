@@ -52,9 +52,8 @@ def cases(
 ) -> list[Case]:
     """Make the config of each small study of a job, from the `study` that is varied.
 
-    `positions` (d,) in the ranges of the factors are by set, None for the study's own values; a set that has
-    none is left out. Without them they are those of the plan or, where it has none, the study's own values.
-    Raises `ConfigError` if a factor sets what the study does not have.
+    `positions` (d,) are by set, None for the study's own values; a set that has none is left out. Without
+    them they are those of the plan or, where it has none, the study's own values.
     """
     if positions is None:
         positions = dict.fromkeys(job.sets) | known(plan)
@@ -71,10 +70,7 @@ def cases(
 # Threads take longer than the splines of a blade's sections
 @threadpool_limits.wrap(limits=1, user_api="blas")
 def check(study: Config, plan: Plan) -> None:
-    """Check every set whose position the plan has; raises `ConfigError`, naming part and set.
-
-    The problems of all sets that are listed are reported together, of those that are drawn the first.
-    """
+    """Check every set whose position the plan has, those that are listed together, of the drawn the first."""
     jobs, positions = plan.jobs().values(), None
     if plan.candidates:
         positions = dict(enumerate(plan.listed(study)))
@@ -93,13 +89,10 @@ def check(study: Config, plan: Plan) -> None:
 
 
 def determinants(study: Config, plan: Plan, job: Job) -> list[Any]:
-    """Return what determines the results of a job but code: a change is a reason to run it.
-
-    Sets whose positions the plan does not have stand there with the study's own values, beside the factors.
-    """
+    """Return what determines the results of a job but code: a change is a reason to run it."""
     small_studies = cases(study, plan, job)
     digests = [(case.set, case.part.claims, digest(typed(case.config.plain()))) for case in small_studies]
-    return digests if known(plan) else [*digests, *plan.ranges]
+    return digests if known(plan) else [*digests, *plan.ranges]  # sets not drawn yet have the study's values
 
 
 def digest(config: Config) -> str:
@@ -129,11 +122,9 @@ def judge(
 ) -> dict[str, pd.DataFrame]:
     """Make the small study of each case, judge the claims of its part and measure their targets.
 
-    Returns the tables ``verdicts`` (`VERDICTS`), ``quantities`` (measured targets; NaN where a study has
-    nothing to measure) and ``cost`` (runs, and processor time in s without that of the blade). Each blade is
-    built once in a folder of `blades`. `folder`, for the only case, keeps runs, maps, peaks and divergence;
-    without it they are in memory alone. `report` is as of `bladerub.study.job.compute_missing`. Raises
-    `ConfigError` if the values of a case make no study together.
+    Returns the tables ``verdicts``, ``quantities`` (measured targets; NaN where a study has nothing to
+    measure) and ``cost`` (processor time in s, without that of the blade). Each blade is built once, in a
+    folder of `blades`. `folder`, for the only case, keeps runs, maps, peaks and divergence.
     """
     verdicts, quantities, cost = [], [], []
     for case in cases:

@@ -97,10 +97,7 @@ class Plan:
         return {part.name: Job((part.name,), (part,)) for part in parts}
 
     def listed(self, study: Config) -> np.ndarray:
-        """Return the positions of the study's own values, then of the listed sets, (1 + n_sets, d).
-
-        Raises `ConfigError` if one of the study's own is outside the range of its factor, or is none.
-        """
+        """Return the positions of the study's own values, then of the listed sets, (1 + n_sets, d)."""
         own = {}
         for name, factor in self.factors.items():
             low, high = factor.range
@@ -125,11 +122,7 @@ class Plan:
         return [(name, f.sets, f.scale, f.multiple_of) for name, f in self.factors.items()]
 
     def lay_over(self, config: Located, positions: Iterable[float]) -> Located:
-        """Set the numbers of all factors, each at its position from 0 to 1, in a copy of `config`.
-
-        A switch of the config is on from 0.5. Raises `ConfigError` if a factor sets what the config does not
-        have.
-        """
+        """Set the numbers of all factors in a copy of `config`, by position; a switch is on from 0.5."""
         config = copy.deepcopy(config)
         for (name, factor), position in zip(self.factors.items(), positions, strict=True):
             for path, value in factor.values(float(position)).items():
@@ -153,11 +146,7 @@ class Plan:
 
 
 def read(kind: str, path: str | Path, key: str | None = None) -> Plan:
-    """Read the plan of a calibration, robustness or identification; those in config/ say what one holds.
-
-    `key` of the config names the file, if any. Raises `ConfigError` if it is none: the message has file,
-    line, key, value and what would be right.
-    """
+    """Read the plan of a calibration, robustness or identification, named by `key` of the config, if any."""
     located = plans.read_plan(path, _KINDS[kind], key)
     plan, content = _KINDS[kind].model_validate(located.plain()), located.content
     if kind == "calibration":

@@ -12,40 +12,26 @@ import numpy as np
 import pandas as pd
 
 from bladerub.extras.study_runs import LOBES
+from bladerub.study import paper
 from bladerub.study.findings.claim import NotMeasurable, claim_of
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import SAME_SPEED, CoatingCase, between
 from bladerub.study.growth import growth
 from bladerub.study.maps import CoatingMap
-from bladerub.study.paper import (
-    CASING,
-    CRITICAL,
-    HARDLY,
-    NEAR,
-    SIGNIFICANT,
-    SOFT,
-    SOFT_HARDENING,
-    SOFTEST,
-    STIFFENING_FROM,
-    STIFFEST,
-    STRAIGHT,
-    STRAIGHT_SPEED,
-    THETA,
-    TILTED,
-    TILTED_SPEED,
-    WORN,
-)
+from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, STRAIGHT_SPEED, TILTED, TILTED_SPEED, WORN
 from bladerub.study.peaks import amplitude_in_window, order_amplitude
 
 EQUAL, AT_LEAST, AT_MOST = "equal", "at least", "at most"
 
 _READING = 0.005  # half a unit of the second digit of the speeds that the paper prints
-_OTHER_BLADE = NEAR / 2  # a speed of a blade with another C1: `NEAR`, which a claim allows, is two of these
+_OTHER_BLADE = (
+    paper.NEAR / 2
+)  # a speed of a blade with another C1: `paper.NEAR`, which a claim allows, is two of these
 _SHIFT = 0.002  # of one speed against another of the same blade: the step of the study
 _SPEED = float(np.hypot(_READING, _OTHER_BLADE))
 _RATIO = 0.05  # of amplitudes: what a claim counts as partly below its border
 _SHARE = 0.1  # of shares of the worn depth in a harmonic
-_SIGNIFICANT = float(np.log(SIGNIFICANT))
+_SIGNIFICANT = float(np.log(paper.SIGNIFICANT))
 _GROWTH = 0.005  # per revolution: half of what counts as growth
 _GREATEST_GROWTH = 0.1  # per revolution; an unbounded run and one that doubles are both far above the border
 
@@ -65,9 +51,8 @@ class Target:
     def excess(self, values: np.ndarray) -> np.ndarray:
         """Return how far values (n,) miss the target, never negative; NaN stays NaN."""
         difference = np.asarray(values, dtype=float) - self.value
-        if self.relation == AT_LEAST:
-            return np.maximum(-difference, 0.0)
-        return np.maximum(difference, 0.0) if self.relation == AT_MOST else np.abs(difference)
+        beyond = difference if self.relation == AT_MOST else -difference
+        return np.abs(difference) if self.relation == EQUAL else np.maximum(beyond, 0.0)
 
 
 def measure(evidence: Evidence, claims: Iterable[str]) -> dict[str, float]:
@@ -106,11 +91,7 @@ def _peak(evidence: Evidence, case: CoatingCase, order: int) -> tuple[float, flo
 
 
 def _dominance(evidence: Evidence, case: CoatingCase, inside: np.ndarray, harmonic: int) -> np.ndarray:
-    """By how much the share of a harmonic in the wear exceeds that of the strongest other, at some speeds.
-
-    The nodal diameters of the casing do not compete: they are in every pattern, and are no lobes of their
-    own.
-    """
+    """By how much the share of a harmonic in the wear exceeds the strongest other's, at some speeds (n,)."""
     if not inside.any():
         raise NotMeasurable(f"{case.name} has no run at these speeds")
     power = np.abs(np.fft.rfft(evidence.map(case).wear[inside])[:, 1:]) ** 2
@@ -133,7 +114,7 @@ def _dominance_at(evidence: Evidence, case: CoatingCase, speed: float | CoatingC
 
 
 def _maximum_near(coating: CoatingMap, speed: float, values: np.ndarray) -> float:
-    window = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
+    window = between(coating.f_omega, speed - 2 * paper.NEAR, speed + 2 * paper.NEAR)
     return _refined_maximum(coating.f_omega[window], values[window])[0]
 
 
@@ -180,19 +161,23 @@ def _shift(evidence: Evidence, one: CoatingCase, other: CoatingCase, order: int)
 
 
 def _modulus_peaks(evidence: Evidence) -> pd.DataFrame:
-    """Speed and amplitude of the peak of order 4 over K and the paper's range of E.
-
-    The columns are ``E``, ``K``, ``f4`` and ``Y4``.
-    """
-    table = evidence.moduli(CASING, THETA, 4, "f_peak").loc[:, SOFTEST:STIFFEST].stack().dropna()
-    peaks = [(E, K, *_peak(evidence, CoatingCase(CASING, E, K, THETA), 4)) for K, E in table.index]
+    """Speed and amplitude of the peak of order 4 over K and the paper's range of E."""
+    table = (
+        evidence.moduli(paper.CASING, paper.THETA, 4, "f_peak")
+        .loc[:, paper.SOFTEST : paper.STIFFEST]
+        .stack()
+        .dropna()
+    )
+    peaks = [
+        (E, K, *_peak(evidence, CoatingCase(paper.CASING, E, K, paper.THETA), 4)) for K, E in table.index
+    ]
     return pd.DataFrame(peaks, columns=["E", "K", "f4", "Y4"])
 
 
 def _over_hardening(evidence: Evidence, reduce: Callable[[np.ndarray], float]) -> float:
     """Find the smallest over E of `reduce` of f4 over ascending K, of each E that contact stiffens."""
     peaks = _modulus_peaks(evidence).sort_values("K")
-    peaks = peaks[peaks.E > STIFFENING_FROM]
+    peaks = peaks[peaks.E > paper.STIFFENING_FROM]
     values = [reduce(group.f4.to_numpy()) for _, group in peaks.groupby("E") if len(group) >= 2]
     return float(min(values, default=np.nan))
 
@@ -200,7 +185,7 @@ def _over_hardening(evidence: Evidence, reduce: Callable[[np.ndarray], float]) -
 def _over_modulus(evidence: Evidence, column: str, reduce: Callable[[np.ndarray], float]) -> float:
     """Find the greatest over the low K of `reduce` of f4 or Y4 over E."""
     peaks = _modulus_peaks(evidence)
-    peaks = peaks[peaks.K <= SOFT_HARDENING]
+    peaks = peaks[peaks.K <= paper.SOFT_HARDENING]
     values = [reduce(group[column].to_numpy()) for _, group in peaks.groupby("K") if len(group) >= 2]
     return float(max(values, default=np.nan))
 
@@ -251,8 +236,8 @@ _TARGETS = (
     ("f6_shift", "C10d", EQUAL, TILTED_SPEED - STRAIGHT_SPEED, _SHIFT, _shift, (TILTED, STRAIGHT, 6)),
     ("f4_rise", "C7a", AT_LEAST, 0.0, _SHIFT, _over_hardening, (lambda f: f[-1] - f[0],)),
     ("f4_step", "C7b", AT_LEAST, 0.0, _SHIFT, _over_hardening, (lambda f: np.diff(f).min(),)),
-    ("Y4_spread", "C8a", AT_MOST, HARDLY["amplitude"], _RATIO, _over_modulus, ("Y4", _relative_range)),
-    ("f4_spread", "C8b", AT_MOST, HARDLY["f_peak"], _SHIFT, _over_modulus, ("f4", np.ptp)),
+    ("Y4_spread", "C8a", AT_MOST, paper.HARDLY["amplitude"], _RATIO, _over_modulus, ("Y4", _relative_range)),
+    ("f4_spread", "C8b", AT_MOST, paper.HARDLY["f_peak"], _SHIFT, _over_modulus, ("f4", np.ptp)),
     ("growth_C11a", "C11a", AT_LEAST, 0.0, _GROWTH, _growth_at, (TILTED, TILTED_SPEED)),
     ("growth_C11b", "C11b", AT_LEAST, 0.0, _GROWTH, _growth_at, (STRAIGHT, STRAIGHT_SPEED)),
     ("growth_C11g", "C11g", AT_LEAST, 0.0, _GROWTH, _growth_at, (TILTED, TILTED)),

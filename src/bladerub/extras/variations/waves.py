@@ -7,6 +7,7 @@ The implausibility of a set is how far its targets miss what the paper prints, i
 target that is the excess over the square root of the variances of reading, of another blade and of
 the prediction (Craig, Goldstein, Seheult, Smith 1997; Vernon, Goldstein, Bower 2010, Bayesian Analysis 5).
 A set is left as long as the implausibility of no target exceeds `CUTOFF`, save of so many as are given up.
+In the end come the candidates, the best sets of all waves, and neighbours of them.
 """
 
 from collections.abc import Iterable, Mapping
@@ -22,6 +23,7 @@ from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
 from bladerub.io.tables import read as read_table
 from bladerub.settings.study import Config
+from bladerub.study.findings.claim import YES
 
 if TYPE_CHECKING:
     from bladerub.extras.variations.emulator import Emulator
@@ -35,12 +37,20 @@ CUTOFF = 3.0
 POINTS = 2**14
 """Points at which it is asked what is left of the ranges; a power of two."""
 
+OWN = 0
+"""Number of the set that has the study's own values."""
+
+CANDIDATE = ["candidate", "neighbour"]
+CANDIDATES = [*CANDIDATE, "set", "misfit"]
+"""Columns that tell the rows of `choose` apart."""
+
 DRAWN = 256
 """Least number of points drawn from what is left: the next sets are the first of them."""
 
 _ENOUGH = 10  # points left for each to draw, or more are looked for near those there are
 _REACH = 0.1  # how far, in ranges
 _ROUNDS = 5
+_GREATEST = 3.0  # implausibility from which a target is lost: one that is lost is not worth five
 
 
 class Remaining(NamedTuple):
@@ -58,10 +68,7 @@ def design(plan: Plan) -> np.ndarray:
 
 
 def known(plan: Plan) -> dict[int, np.ndarray]:
-    """Return the position (d,) of each sample of a robustness.
-
-    Those of an identification are in tables, because later waves depend on the results of earlier ones.
-    """
+    """Return the position (d,) of each sample of a robustness; those of an identification are in tables."""
     return dict(enumerate(design(plan))) if plan.factors and not plan.candidates else {}
 
 
@@ -73,24 +80,23 @@ def first(plan: Plan, study: Config) -> np.ndarray:
 def as_table(plan: Plan, number: int, drawn: np.ndarray) -> pd.DataFrame:
     """Make the table of the sets `drawn` (n, d), numbered from `number`, with `POSITIONS`."""
     numbers = pd.RangeIndex(number, number + len(drawn), name="set")
-    return as_long(pd.DataFrame(drawn, numbers, list(plan.factors)))
-
-
-def as_long(positions: pd.DataFrame) -> pd.DataFrame:
-    """Make a row for each factor of each set of `positions`, which have a column for each factor."""
-    return positions.rename_axis(columns="factor").stack().rename("range_fraction").reset_index()
+    return _as_long(pd.DataFrame(drawn, numbers, list(plan.factors)))
 
 
 def with_values(plan: Plan, sets: pd.DataFrame) -> pd.DataFrame:
-    """Make those rows with the first number that each factor sets, and its unit."""
-    table = as_long(sets)
+    """Make a row for each factor of each set, with the first number that the factor sets, and its unit."""
+    table = _as_long(sets)
     positions = zip(table.factor, table.range_fraction, strict=True)
     values = [plan.factors[name].first_value(position) for name, position in positions]
     return table.assign(value=values, unit=[plan.factors[name].unit for name in table.factor])
 
 
+def _as_long(positions: pd.DataFrame) -> pd.DataFrame:
+    return positions.rename_axis(columns="factor").stack().rename("range_fraction").reset_index()
+
+
 def read(paths: Iterable[str | Path], index: str | list[str] = "set") -> pd.DataFrame:
-    """Read positions: a row for each set, or another `index`, a column for each factor in order."""
+    """Read positions: a row for each set, or for each `CANDIDATE`, a column for each factor in order."""
     long = pd.concat([read_table(path, POSITIONS) for path in paths])
     wide = long.pivot(index=index, columns="factor", values="range_fraction")
     return wide[list(dict.fromkeys(long.factor))]
@@ -130,13 +136,11 @@ def remaining(plan: Plan, emulated: Mapping[str, "Emulator"]) -> Remaining:
 def draw(
     plan: Plan, wave: int, remainder: Remaining, emulated: Mapping[str, "Emulator"], simulated: np.ndarray
 ) -> np.ndarray:
-    """Draw plausible points (n, d) for the wave after `wave`, far from each other and from the `simulated`.
+    """Draw plausible points (n, d), each far from those before it and from the `simulated`.
 
-    Each is as far as possible from those before it. There are `DRAWN`, or as many as the wave needs.
+    There are `DRAWN`, or as many as a wave needs.
     """
-    rng = np.random.default_rng([plan.seed, wave])
-    count = max(DRAWN, *plan.waves)
-    points = remainder.points
+    rng, count, points = np.random.default_rng([plan.seed, wave]), max(DRAWN, *plan.waves), remainder.points
     for _ in range(_ROUNDS):
         if len(points) >= _ENOUGH * count:
             break
@@ -149,6 +153,33 @@ def draw(
         indices.append(int(distance.argmax()))
         distance = np.minimum(distance, cdist(points, points[indices[-1:]])[:, 0])
     return points[indices]
+
+
+def misfit(measured: pd.DataFrame) -> pd.Series:
+    """Return the misfit of each simulated set: mean square of the implausibility of its targets, bounded."""
+    bounded = implausibility(measured).fillna(_GREATEST).clip(upper=_GREATEST)
+    return (bounded**2).mean(axis=1)
+
+
+def choose(
+    plan: Plan, positions: pd.DataFrame, measured: pd.DataFrame, verdicts: pd.DataFrame
+) -> pd.DataFrame:
+    """Choose the sets in which most parts hold, and draw neighbours; the misfit decides among equals.
+
+    A row for each candidate (from 0, which has the study's own values) and neighbour (0: the set itself), by
+    `CANDIDATES`, with the position of each factor.
+    """
+    misfits = misfit(measured)
+    yes = (verdicts.holds == YES).groupby(verdicts["set"]).sum()
+    ranked = pd.DataFrame({"yes": -yes, "misfit": misfits}).drop(OWN).sort_values(["yes", "misfit"])
+    best = [OWN, *ranked.index[: plan.candidates.number]]
+    rng, rows = np.random.default_rng([plan.seed, len(plan.waves) + 1]), []
+    for candidate, neighbour in plan.candidates.pairs:
+        number = best[candidate]
+        signs = rng.choice([-1.0, 1.0], len(plan.factors)) if neighbour else np.zeros(len(plan.factors))
+        position = np.clip(positions.loc[number] + plan.candidates.shift * signs, 0.0, 1.0)
+        rows.append((candidate, neighbour, number, misfits[number], *position))
+    return pd.DataFrame(rows, columns=[*CANDIDATES, *plan.factors]).set_index(CANDIDATES)
 
 
 def _spread(plan: Plan, rng: np.random.Generator, count: int) -> np.ndarray:

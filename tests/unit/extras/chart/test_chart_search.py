@@ -7,8 +7,8 @@ from study_fixtures import changed
 
 from bladerub.contact.strips import strip_width
 from bladerub.extras.chart import column, search
-from bladerub.extras.chart.plan import chart_speeds, columns, expected_minutes, in_words, plan
-from bladerub.extras.chart.point import PointRow, check, nearest_speeds
+from bladerub.extras.chart.plan import chart_speeds, check, columns, expected_minutes, in_words, plan
+from bladerub.extras.chart.point import PointRow, nearest_speeds
 from bladerub.extras.chart.table import read_points
 from bladerub.io.errors import BadInput, DamagedFile
 from bladerub.study.cache import ARCHIVE

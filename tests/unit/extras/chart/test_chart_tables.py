@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from bladerub import plugins
-from bladerub.extras.chart import check, choice, ridge, stiffening, table
+from bladerub.extras.chart import stiffening, table
 from bladerub.extras.chart.point import read, write
 from bladerub.extras.chart.settings import Limits
 from bladerub.io.tables import described_columns, entry
@@ -46,16 +46,16 @@ def test_a_row_sums_up_a_cell_which_comes_back_from_its_file(config, make_point,
 def test_a_chart_without_any_peak_has_tables(config, chart):
     nothing = np.full_like(chart[0].spectrum_amplitude, np.nan)
     unbounded = [replace(point, spectrum_amplitude=nothing) for point in chart]
-    ridges, peaks = ridge.table(config, unbounded), stiffening.explanation(config, unbounded)
-    assert list(ridge.summary(ridges).columns) == ridge.SUMMARY
+    ridges, peaks = stiffening.ridges(config, unbounded), stiffening.explanation(config, unbounded)
+    assert list(stiffening.ridge_summary(ridges).columns) == stiffening.SUMMARY
     assert (len(ridges), len(peaks), peaks.amplitude.count()) == (0, 2 * len(chart), 0)
-    ridges = ridge.table(config, [chart[0], *unbounded[1:]])
+    ridges = stiffening.ridges(config, [chart[0], *unbounded[1:]])
     (alone,) = ridges.query("along == 'E' and order == 4 and speed_step < 3e-3").itertuples()
     assert np.isnan([alone.lowest_neighbour, alone.highest_neighbour]).all()
 
 
 def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K_and_its_explanation_counts_cycles(config, chart):
-    ridges = ridge.table(config, chart)
+    ridges = stiffening.ridges(config, chart)
     finest = ridges[(ridges.order == 4) & (ridges.speed_step == 0.002)]
     along = finest[finest.along == "E"].set_index("E")
     assert (along.K == 1.0).all()
@@ -63,7 +63,7 @@ def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K_and_its_explanation_c
     assert along.E_T[2.0] == pytest.approx(2 / 3)
     assert along.amplitude[1.0] == pytest.approx(2e-3)
     assert (along.lowest_neighbour[2.0], along.highest_neighbour[2.0]) == pytest.approx((1e-3, 3e-3))
-    found = ridge.summary(ridges)  # a coarser step loses what lies between
+    found = stiffening.ridge_summary(ridges)  # a coarser step loses what lies between
     of_order = found[found.order == 4].set_index("speed_step")
     assert list(of_order.index) == [0.002, 0.004, 0.008]
     assert list(of_order.amplitude) == pytest.approx([4e-3, *2 * [4e-3 * (1 - 0.002 / 0.05)]])
@@ -109,27 +109,27 @@ def test_the_recommended_coating_says_how_good_those_next_to_it_are_and_nothing_
     config, chart
 ):
     rows = table.table(config, chart)
-    (soft,) = choice.recommended(rows, Limits(amplitude=1.6e-3, wear=5e-4)).to_dict("records")
+    (soft,) = table.recommended(rows, Limits(amplitude=1.6e-3, wear=5e-4)).to_dict("records")
     assert (soft["E"], soft["K"], soft["safe"], soft["coatings"]) == (0.5, 0.1, True, 9)
     assert np.isnan([soft["E_below"], soft["K_below"]]).all()
     assert (soft["E_above"], soft["K_above"]) == (1.0, 1.0)
     assert (soft["neighbours"], soft["safe_neighbours"]) == (3, 2)
     assert (soft["lowest_neighbour"], soft["highest_neighbour"]) == pytest.approx((1e-3, 2e-3))
-    (none,) = choice.recommended(rows, Limits(amplitude=1e-5, wear=1e-3)).to_dict("records")
+    (none,) = table.recommended(rows, Limits(amplitude=1e-5, wear=1e-3)).to_dict("records")
     assert (none["safe"], none["broken"], none["safe_coatings"]) == (False, 1, 0)
     assert {entry(name) for name in none} <= described_columns(*plugins.files("columns.csv")).keys()
     chart = pd.DataFrame({"theta": [0.0, 0.0, 0.0, 0.0, 0.15], "peak": [1e-3, 2e-3, 3e-3, 2e-3, 9e-3]})
     chart = chart.assign(worn_volume=[5.0, 3.0, 4.0, 3.5, 9.0], divergent_share=0.0)
     chart["deepest_wear"] = [1e-4, 9e-4, 1e-4, 1e-4, 1e-4]
     limits = Limits(amplitude=5e-3, wear=5e-4, divergent_share=0.0)
-    front = choice.pareto(chart, limits)
+    front = table.pareto(chart, limits)
     assert list(front.peak) == [1e-3, 2e-3, 9e-3]
     assert list(front.safe) == [True, False, False]
-    broken = choice.broken_limits(chart, limits)
+    broken = table.broken_limits(chart, limits)
     assert list(broken.wear) == [False, True, False, False, False]
     assert list(broken.amplitude) == [False] * 4 + [True]
     stressed = chart.assign(alternating=[np.nan, 3e8, 1e8, 1e8, 1e8])  # not known of the first
-    assert list(choice.broken_limits(stressed, Limits(fatigue=2e8)).fatigue) == [True] * 2 + [False] * 3
+    assert list(table.broken_limits(stressed, Limits(fatigue=2e8)).fatigue) == [True] * 2 + [False] * 3
 
 
 def test_the_search_is_put_to_the_study(config, make_map):
@@ -137,11 +137,11 @@ def test_the_search_is_put_to_the_study(config, make_map):
     hats = {4: (0.322, 2e-3), 6: (0.19, 1e-3)}
     maps = [make_map(CoatingCase("2nd", e, 0.5, 0.0), hats, f_omega) for e in E]
     maps[1].spectrum_amplitude[f_omega == 0.274, 40] = 3e-3  # a spike that no local maximum leads to
-    found = check.table(config, maps)
+    found = table.placement(config, maps)
     spike = (found.E == 1.0) & (found.quantity == "Y4")
     assert (found.missed[~spike] == 0).all()
     assert found.missed[spike].item() == pytest.approx(1 / 3)
-    counts = check.summary(found).set_index("quantity")
+    counts = table.placement_summary(found).set_index("quantity")
     assert tuple(counts.loc["Y4", ["coatings", "exact", "within_5_percent"]]) == (3, 2, 2)
     assert counts.worst_missed["Y4"] == pytest.approx(1 / 3)
     assert (counts.exact[["Y6", "peak"]] == 3).all()

@@ -6,10 +6,16 @@ from study_fixtures import changed
 
 from bladerub.config.read import read
 from bladerub.extras import inventory
-from bladerub.extras.cores import Costs, costs_of
+from bladerub.extras.cores import (
+    GROWING,
+    SECONDS_AT_FIRST,
+    SECONDS_PER_JOB,
+    SECONDS_PER_REVOLUTION,
+    Costs,
+    costs_of,
+)
 from bladerub.extras.cost.forecast import forecast
 from bladerub.extras.cost.jobs import COLUMNS, cost, table
-from bladerub.extras.job_times import GROWING, SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION
 
 RECORD = (
     "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"

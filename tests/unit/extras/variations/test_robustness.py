@@ -6,7 +6,7 @@ from study_fixtures import CONFIG, changed
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.config.read import vary
-from bladerub.extras.variations import candidates, identification, job, waves
+from bladerub.extras.variations import identification, job, waves
 from bladerub.extras.variations import robustness as summary
 from bladerub.extras.variations.emulator import Emulator, compared, held_out
 from bladerub.extras.variations.figures import robustness
@@ -219,13 +219,13 @@ def test_the_best_sets_and_their_neighbours_are_chosen_and_the_parts_that_hold_t
 ):
     """Of two parts both hold in set 7, one in set 3 and in the nearest, and none in the others."""
     table = pd.DataFrame(positions, index=measured.index, columns=["unit", "hub"])
-    sets, misfit = np.arange(len(positions)), candidates.misfit(measured)
+    sets, misfit = np.arange(len(positions)), waves.misfit(measured)
     nearest = int(misfit.idxmin())
     judged = verdicts_of(C4a=np.isin(sets, [3, 7]), C4b=np.isin(sets, [7, nearest]))
-    chosen = candidates.choose(plan, table, measured, judged)
+    chosen = waves.choose(plan, table, measured, judged).reset_index()
     assert len(chosen) == 3 * 4
     themselves = chosen[chosen.neighbour == 0]
-    assert themselves.set.iloc[0] == candidates.OWN
+    assert themselves.set.iloc[0] == waves.OWN
     assert list(themselves.set[1:]) == [7, nearest]
     assert list(themselves.misfit) == list(misfit[themselves.set])
     for number in (0, 1, 2):
@@ -233,11 +233,11 @@ def test_the_best_sets_and_their_neighbours_are_chosen_and_the_parts_that_hold_t
         moved = np.abs(np.array(others) - itself)
         assert (moved <= 0.02 + 1e-12).all()
         assert moved.max() == pytest.approx(0.02)
-    long = candidates.as_table(plan, chosen)
+    long = waves.with_values(plan, chosen.set_index(waves.CANDIDATES))
     rows = [(0, "C4a", "yes"), (0, "C6a", "yes"), (0, "C1a", "yes"), (0, "C9a", "no")]
     rows += [(4, "C4a", "partly"), (4, "C6a", "no"), (4, "C1a", "yes"), (4, "C9a", "no")]
     judged = pd.DataFrame(rows, columns=["set", "id", "holds"]).assign(margin=0.0)
-    counted = candidates.counts(long, candidates.verdicts(plan, judged))
+    counted = identification.counts(long, identification.of_candidates(plan, judged))
     counted = counted.set_index(["candidate", "neighbour"])[["matched_yes", "predicted_yes", "yes", "parts"]]
     assert counted.loc[[(0, 0), (1, 0)]].to_numpy().tolist() == [[1, 1, 3, 4], [0, 0, 1, 4]]
 

@@ -7,9 +7,8 @@ import pandas as pd
 import pytest
 from study_fixtures import changed
 
-from bladerub.extras.variations import margins
 from bladerub.extras.variations.targets import measure
-from bladerub.extras.variations.verdicts import side_by_side
+from bladerub.extras.variations.verdicts import SETTINGS, STUDY, margins, side_by_side, variations
 from bladerub.study import divergence, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, speeds
@@ -100,9 +99,9 @@ def maps(study, make_map):
 
 
 def test_speeds_and_moduli_are_dropped_but_not_those_that_are_named(study, maps):
-    varied = margins.variations(study, maps)
+    varied = variations(study, maps)
     variant = replace(maps[0], case=replace(maps[0].case, variant="xi0.001"))
-    assert margins.variations(study, [*maps, variant])[margins.STUDY] == (study, maps)  # of coatings alone
+    assert variations(study, [*maps, variant])[STUDY] == (study, maps)  # of coatings alone
     _, (twice, *_) = varied["speed step 0.02"]
     expected = np.union1d(np.arange(0.02, 0.4001, 0.02), [0.19, 0.197, 0.206])
     np.testing.assert_allclose(twice.f_omega, expected)
@@ -115,7 +114,7 @@ def test_speeds_and_moduli_are_dropped_but_not_those_that_are_named(study, maps)
     young = {coating.case.E for coating in varied["without E = 0.2, 5"][1]}
     assert young == set(YOUNG) - {0.2, 5.0}
     assert {coating.case.K for coating in varied["without K = 0.1, 5"][1]} == {0.5, 1.0}
-    for name, (key, value) in margins.SETTINGS.items():
+    for name, (key, value) in SETTINGS.items():
         (config, of_all), setting = varied[name], attrgetter(key)
         assert setting(config.analysis) == value != setting(study.analysis)
         assert config.replaced(f"analysis.{key}", setting(study.analysis)) == study
@@ -127,11 +126,11 @@ def test_a_table_has_every_claim_in_every_variation(study, maps, tmp_path):
         write_map(tmp_path / f"{coating.case.name}.h5", coating, {})
     accuracy = [(f, mode, 1e-4) for f in (0.0, 0.4) for mode in range(1, 11)]
     pd.DataFrame(accuracy, columns=["f_omega", "mode", "relative_error"]).to_csv(tmp_path / "a.csv")
-    table = margins.table(study, sorted(tmp_path.glob("*.h5")), tmp_path / "a.csv")
+    table = margins(study, sorted(tmp_path.glob("*.h5")), tmp_path / "a.csv")
     holds = side_by_side(table, by="variation")
-    assert list(holds.columns) == list(margins.variations(study, maps))
+    assert list(holds.columns) == list(variations(study, maps))
     # the narrow peak at 0.33 is on no speed of the thinned grid
-    assert holds.loc["C6a", margins.STUDY] == "no"
+    assert holds.loc["C6a", STUDY] == "no"
     assert holds.loc["C6a", "speed step 0.02"] == "yes"
     assert holds.loc["C1a"].eq("yes").all()
     # what the study can tell all can, but those on K up to 0.1 without it
