@@ -66,8 +66,7 @@ KEPT = {
 """Tables of which pages need these columns only, to four digits."""
 
 
-ROWS = {"fine_margins": {"variation": "study"}}
-"""Snapshots that have only the rows with these values."""
+ROWS = {"fine_margins": {"variation": "study"}}  # snapshots that have only the rows with these values
 
 
 def update(folder: Path, results: Path) -> None:

@@ -5,8 +5,7 @@ import pandas as pd
 from docs.numbers import rows, table
 
 _SIGNS = {"f_omega": "f_Ω", "theta": "θ", "<=": "≤"}
-_CHANGE = 0.03
-"""Relative change of a measured value from which on it is shown beside that of another study."""
+_CHANGE = 0.03  # relative change of a measured value from which on it is shown beside that of another study
 
 
 def claims(findings: pd.DataFrame, *groups: str) -> str:

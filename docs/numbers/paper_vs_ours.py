@@ -3,8 +3,7 @@
 from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, span, table
 from docs.numbers.claims import changes, claims, counts, variations
 
-_RIDGE = [1.1, 1.5, 2.0, 5.0, 11.0, 20.0]
-"""Moduli E of the ridge of Y4, at K = 0.5."""
+_RIDGE = [1.1, 1.5, 2.0, 5.0, 11.0, 20.0]  # moduli E of the ridge of Y4, at K = 0.5
 
 
 def numbers(tables):

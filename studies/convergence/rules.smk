@@ -10,7 +10,7 @@ CONVERGENCE = {
     "rigid_convergence": (["extras.verification.rigid_casing"], 15, PEAKS_AGAIN, {}),
     # how accurate the study's runs are: a table of what `bladerub verify` measures
     "accuracy": (
-        ["extras.verification.accuracy"],
+        ["extras.verification.verify"],
         30,
         {"maps": expand(rules.coating.output.map, coating=COATINGS)},
         {"peaks": PEAKS},

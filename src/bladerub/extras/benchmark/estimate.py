@@ -43,8 +43,7 @@ from bladerub.study.solver import each_done
 from bladerub.study.store import stored_run, write_run
 
 DRAWN, DRAWN_WITH_STRESS = 128, 24
-_JOB_OF_RUNS = ("study.job", "study.maps")
-"""What the job of the runs and the map of a coating imports."""
+_JOB_OF_RUNS = ("study.job", "study.maps")  # what the job of the runs and the map of a coating imports
 
 
 def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:

@@ -26,8 +26,7 @@ from bladerub.numerics.vectors import LANES, broadcast, lane_sum
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
-SHARE = 1 / 3
-"""Share of the steps in contact."""
+SHARE = 1 / 3  # share of the steps in contact
 REVOLUTIONS = 2
 REPEATS = 25
 """Marches of the loop of the study in each round: free ones take half a millisecond, so the median counts."""
@@ -35,8 +34,7 @@ PEAK_TURNS = 2_000_000
 PEAK_CHAINS = 12
 """Products and sums in progress at once: more than a processor needs to be busy, fewer than its registers."""
 
-FLOPS_PER_MODE = 7
-"""Of a step by itself: recurrence 3, damping loss 4; 2 more for each coordinate of the tip."""
+FLOPS_PER_MODE = 7  # of a step by itself: recurrence 3, damping loss 4; 2 more for each coordinate of the tip
 FLOPS_PER_FLIGHT = 29
 """Of a mode in free flight: increment and last step 9, damping loss 12, mean 4, bound 4; and the tip."""
 FLOPS_PER_ELEMENT = 17 + 52  # force once, and wear with its ledger

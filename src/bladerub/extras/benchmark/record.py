@@ -11,8 +11,7 @@ from llvmlite import binding
 
 from bladerub.io import tables
 
-MACHINE = ["processor", "vector_bits", "cores"]
-"""Columns that tell machines apart."""
+MACHINE = ["processor", "vector_bits", "cores"]  # columns that tell machines apart
 LOOPS = ("numpy", "numba", "production")
 _WHOLE = ["peak_flops", "seconds_per_run", "study_minutes", "cost_of_stress"]
 COLUMNS = [

@@ -20,15 +20,12 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.summary import displacement_peak, spectral_peak
 from bladerub.study.variants import of_case
 
-MOST_ANGLES = 500
-"""Wear is averaged to at most so many arcs of the circumference."""
+MOST_ANGLES = 500  # wear is averaged to at most so many arcs of the circumference
 LAST_ORDER = ORDERS[-1] + 1
 """Spectra are kept up to this engine order at least, the end of the axis of orders."""
 AMPLITUDE_FLOOR = 1e-8
 """Smallest spectral amplitude that the page resolves, m; far below the colour scale of the figures."""
-_SMALLEST = 1e-15
-"""Amplitude of a blade at rest in the pictures of growth, m: a logarithmic axis has no zero."""
-
+_SMALLEST = 1e-15  # amplitude of a blade at rest in the pictures of growth, m: a logarithmic axis has no zero
 VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]
 """Columns of ``divergence.csv`` that the page shows, with the status of the run they rest on."""
 

@@ -24,10 +24,8 @@ from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.extras.gpu import formulas
 from bladerub.numerics.vectors import LANES
 
-WARP = 32
-"""Lanes of a warp: four groups of the `LANES` nodes."""
-MOST_RUNS = 4096
-"""Runs of a piece of work at most: what a device leaves of each takes half a megabyte."""
+WARP = 32  # lanes of a warp: four groups of the `LANES` nodes
+MOST_RUNS = 4096  # runs of a piece of work at most: what a device leaves of each takes half a megabyte
 COMPLETED, UNBOUNDED, HANDED_OVER = range(3)
 """How a run ended: at its end, beyond the displacement limit, or where the loop can't go on."""
 COUNTS = ("status", "revolutions", "steps", "last_steps", "contact_steps", "reversed_steps")

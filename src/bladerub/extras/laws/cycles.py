@@ -15,8 +15,7 @@ STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4
 STEPS = 400  # of each branch
 VISCOSITY = 1e4  # Pa s
 
-Panels = Mapping[str, Mapping[str, LoadingCycle]]
-"""Cycles by their labels, by the title of their panel."""
+Panels = Mapping[str, Mapping[str, LoadingCycle]]  # cycles by their labels, by the title of their panel
 
 
 def panels(coating: Coating) -> Panels:

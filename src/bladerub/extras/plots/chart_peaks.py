@@ -97,8 +97,7 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) ->
     return figure
 
 
-_LABELLED = 6
-"""Coatings of a front that are named; the table has all."""
+_LABELLED = 6  # coatings of a front that are named; the table has all
 
 
 @styled

@@ -7,8 +7,7 @@ from matplotlib.figure import Figure
 from bladerub.plots import style
 from bladerub.plots.scales import UNKNOWN, Scales
 
-NONE = 1e-12
-"""Relative difference that is drawn for none on the logarithmic axis."""
+NONE = 1e-12  # relative difference that is drawn for none on the logarithmic axis
 COLOURS = (style.DARK, style.ORANGE, style.BLUE, style.RED, style.GREY, style.VIOLET)
 
 

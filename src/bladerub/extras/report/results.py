@@ -19,9 +19,7 @@ from bladerub.study.maps import CoatingMap, read_map
 from bladerub.study.summary import spectral_peak
 from bladerub.study.variants import of_case
 
-STRESS = "last_von_mises"
-"""Column of ``stress.csv`` that the page shows, Pa; not every study has the table."""
-
+STRESS = "last_von_mises"  # column of ``stress.csv`` that the page shows, Pa; not every study has the table
 BLADE = "blade/reduced_model.h5"
 
 

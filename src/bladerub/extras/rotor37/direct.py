@@ -26,14 +26,12 @@ from bladerub.extras.verification import impact
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 
-SPEED = 1344.0
-"""rad/s; four times in a revolution is close to the first frequency."""
+SPEED = 1344.0  # rad/s; four times in a revolution is close to the first frequency
 REVOLUTIONS = 50
 FRICTION = (0.0, 0.15)
 CASING = "bumps"
 
-STEPS = 20
-"""Time steps of `independent` in the passage of a coating element; half as many are tried as well."""
+STEPS = 20  # time steps of `independent` in the passage of a coating element; half as many are tried as well
 
 
 def unstiffened(blade: ReducedBlade) -> ReducedBlade:

@@ -29,8 +29,7 @@ from bladerub.extras.rotor37.numbers import of_displacement
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 
-VARIABLE = "BLADERUB_NLSTEP"
-"""Environment variable with the folder of `FUNCTION`."""
+VARIABLE = "BLADERUB_NLSTEP"  # environment variable with the folder of `FUNCTION`
 FUNCTION = "sim_contact3D.m"
 OCTAVE = "octave-cli"
 DRIVER = Path(__file__).parent / "octave" / "direct_contact.m"

@@ -13,13 +13,9 @@ from bladerub.io.folders import CONFIG, ROOT
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases
 
-PLAN = ROOT / "config" / "rotor37_reference.yaml"
-"""What is computed, and with which variations."""
-
-REFERENCE = "reference"
-"""The set of the plan whose numbers are quoted."""
-VARIATIONS = ("step", "modes", "mesh", "nodes")
-"""The sets whose differences from them are the uncertainty."""
+PLAN = ROOT / "config" / "rotor37_reference.yaml"  # what is computed, and with which variations
+REFERENCE = "reference"  # the set of the plan whose numbers are quoted
+VARIATIONS = ("step", "modes", "mesh", "nodes")  # the sets whose differences from them are the uncertainty
 
 
 def plan() -> dict[str, Config]:

@@ -10,7 +10,6 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
-from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import own_steps, with_steps
 from bladerub.contact.strips import element_passage
 from bladerub.extras.verification.differences import differences, largest
@@ -21,16 +20,9 @@ from bladerub.study.variants import with_variant
 
 TOLERANCES = (0.1, 0.03, 0.01, 0.003)
 
-STUDY = 0.01
-"""The one of these that the study takes."""
-
-UNIFORM = (20, 1.2e-6)
-"""One step for all coatings: at least so many in an element, of at most so many seconds."""
-
-SAMPLE = 12
-"""Runs drawn for each Young modulus."""
-
-SEED = 11
+STUDY = 0.01  # the one of these that the study takes
+UNIFORM = (20, 1.2e-6)  # one step for all coatings: least number in an element, longest in seconds
+SAMPLE, SEED = 12, 11  # runs drawn for each Young modulus
 
 COLUMNS = [
     *("casing", "E", "K", "theta", "law", "f_omega"),
@@ -55,9 +47,9 @@ def table(
 ) -> pd.DataFrame:
     """Find steps and error of the drawn runs at each tolerance; a row each, with `COLUMNS`.
 
-    The error is the largest of `bladerub.extras.verification.differences` from a run of `REFINEMENT` times
-    the steps of the smallest tolerance. A run is sensitive, whatever the tolerance, if neighbouring starts
-    `explain` its errors at that of the study. `report` is called with a line for each run.
+    The error is the largest of the `differences` from a run of `REFINEMENT` times the steps of the smallest
+    tolerance. A run is sensitive, whatever the tolerance, if neighbouring starts `explain` its errors at that
+    of the study. `report` is called with a line for each run.
     """
     rows, runs = [], draw(config)
     for number, run in enumerate(runs, 1):
@@ -69,10 +61,8 @@ def table(
 def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[Any]]:
     spec, analysis = run_spec(config, run.case, run.f_omega), config.analysis
     passage = element_passage(blade, spec)
-    specs: dict[float, RunSpec] = {
-        tolerance: replace(spec, tolerance=tolerance, steps_per_element=0, max_time_step=math.inf)
-        for tolerance in TOLERANCES
-    }
+    free = replace(spec, steps_per_element=0, max_time_step=math.inf)
+    specs = {tolerance: replace(free, tolerance=tolerance) for tolerance in TOLERANCES}
     specs[math.nan] = with_steps(spec, own_steps(passage, *UNIFORM))
     results = {tolerance: simulate(blade, run_spec) for tolerance, run_spec in specs.items()}
     steps = {tolerance: round(passage / result.time_step) for tolerance, result in results.items()}
@@ -89,9 +79,6 @@ def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[A
         is_sensitive = explain(error, spread)
     *coating, variant = astuple(run.case)
     for tolerance, result in results.items():
-        yield [
-            *(*coating, run.f_omega, tolerance, steps[tolerance]),
-            steps[tolerance] * spec.coating.n_elements,
-            *(max(errors[tolerance]), is_sensitive, result.energy.residual),
-            variant,
-        ]
+        of_revolution = steps[tolerance] * spec.coating.n_elements
+        row = [*coating, run.f_omega, tolerance, steps[tolerance], of_revolution, max(errors[tolerance])]
+        yield [*row, is_sensitive, result.energy.residual, variant]
