@@ -17,7 +17,7 @@ CONVERGENCE = {
     ),
     # what a run costs at several tolerances of its step, and what its error is then
     "steps": (
-        ["extras.verification.steps", "extras.plots.steps"],
+        ["extras.verification.steps"],
         20,
         {},
         {"dpi": DPI, "simulated": {key: config[key] for key in SIMULATED}},

@@ -7,7 +7,6 @@ job.log_to(snakemake.log[0])
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras.plots.steps import steps as draw_steps
 from bladerub.extras.study_runs import important_runs, study_runs
 from bladerub.extras.verification import refinement, rigid_casing, steps, verify
 from bladerub.io import tables
@@ -30,5 +29,5 @@ match Path(snakemake.output.table).stem:
         table = verify.table(blade, config, candidates, report=job.log)
     case "steps":
         table = steps.table(blade, config, report=job.log)
-        figure = draw_steps(table)
+        figure = steps.draw_steps(table)
 outputs.save(snakemake, figure, table=table)
