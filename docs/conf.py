@@ -22,7 +22,7 @@ release = bladerub.__version__
 extensions = [
     "myst_parser",  # pages in Markdown
     "research_notes",  # those of studies, and links
-    "page_numbers",  # what they quote by name
+    "docs.numbers",  # what they quote by name
     "sphinx.ext.autosummary",  # API
     "numpydoc",  # its docstrings
     "sphinxarg.ext",  # commands, from their parsers

@@ -16,15 +16,15 @@ LINK = re.compile(r"\[([^\[\]]*)\]\(([^()#\s]+)(#[^()\s]*)?\)")
 def _write_notes(app):
     """Write the pages of the studies that are there, those that changed alone, and remove those of others."""
     NOTES.mkdir(exist_ok=True)
-    texts = {
-        NOTES / f"{readme.parent.name}.md": follow(readme.read_text("utf-8"), readme.parent, NOTES)
-        for readme in HERE.parent.glob("studies/**/README.md")
-    }
-    for page in set(NOTES.glob("*.md")) - set(texts):
-        page.unlink()
-    for page, text in texts.items():
+    stale = set(NOTES.glob("*.md"))
+    for readme in HERE.parent.glob("studies/**/README.md"):
+        page = NOTES / f"{readme.parent.name}.md"
+        text = follow(readme.read_text("utf-8"), readme.parent, NOTES)
         if not page.exists() or page.read_text("utf-8") != text:
             page.write_text(text, encoding="utf-8")
+        stale.discard(page)
+    for page in stale:
+        page.unlink()
 
 
 def _follow_links(app, docname, source):
@@ -53,10 +53,8 @@ def _page_of(path):
         return NOTES / f"{path.parent.name}.md" if path.exists() else None
     if path.name in ("CONTRIBUTING.md", "CHANGELOG.md"):
         return HERE / path.name.lower()
-    if path == HERE / "gallery":
-        return HERE / "auto_gallery" / "index.rst"
-    if path.parent == HERE / "gallery":
-        return HERE / "auto_gallery" / f"{path.stem}.rst"
+    if HERE / "gallery" in (path, path.parent):
+        return HERE / "auto_gallery" / ("index.rst" if path.name == "gallery" else f"{path.stem}.rst")
     return path
 
 

@@ -34,36 +34,24 @@ def updated(text: str) -> str:
 
 def _described(thing: type) -> str:
     """Return signature and first line of a function or class, and a list of the members of a class."""
-    error = inspect.isclass(thing) and issubclass(thing, Exception)
+    is_class = inspect.isclass(thing)
+    error = is_class and issubclass(thing, Exception)
     call = thing.__name__ if error else _call(thing.__name__, thing)
-    lines = [f"**`{call}`**", f"{_first_line(thing)}\n"]
-    members = [] if error or not inspect.isclass(thing) else _members(thing)
-    if members:
-        lines += [*members, ""]
-    return "\n".join(lines)
-
-
-def _members(thing: type) -> list[str]:
-    """Return a line for each public method and property of a class."""
-    rows = []
-    for name, member in vars(thing).items():
+    members = []
+    for name, member in vars(thing).items() if is_class and not error else ():
         plain = member.__func__ if isinstance(member, classmethod | staticmethod) else member
         if not name.startswith("_") and (inspect.isfunction(plain) or isinstance(plain, DATA)):
-            call = _call(name, plain) if inspect.isfunction(plain) else name
-            rows.append(f"* `{call}`: {_first_line(plain)}")
-    return rows
+            call_of_member = _call(name, plain) if inspect.isfunction(plain) else name
+            members.append(f"* `{call_of_member}`: {_first_line(plain)}")
+    return "\n".join([f"**`{call}`**", f"{_first_line(thing)}\n", *members, *([""] if members else [])])
 
 
 def _call(name: str, function: object) -> str:
     """Return the call of a function with its parameters and defaults, without types."""
-    signature = inspect.signature(function)
-    empty = inspect.Parameter.empty
-    parameters = [
-        parameter.replace(annotation=empty)
-        for parameter in signature.parameters.values()
-        if parameter.name not in ("self", "cls")
-    ]
-    return name + str(signature.replace(parameters=parameters, return_annotation=empty))
+    signature, empty = inspect.signature(function), inspect.Parameter.empty
+    parameters = (part for part in signature.parameters.values() if part.name not in ("self", "cls"))
+    plain = [parameter.replace(annotation=empty) for parameter in parameters]
+    return name + str(signature.replace(parameters=plain, return_annotation=empty))
 
 
 def _first_line(thing: object) -> str:

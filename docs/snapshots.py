@@ -14,20 +14,18 @@ COUNTED = {
 """Tables of a row a run, which become counts (``runs``) of the runs with equal values in these columns."""
 _RUN = ("casing", "E", "K", "theta")
 _COMBINATION = (*_RUN, "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling")
+_STATISTICS = ("median", "low", "high", "p05", "p95")
 _ROWS = (
     *(*_COMBINATION, "rows", "unbounded_rows", "divergent_rows"),
-    *(f"row_amplitude_{statistic}" for statistic in ("median", "low", "high", "p05", "p95")),
-    *(f"amplification_{statistic}" for statistic in ("median", "low", "high", "p05", "p95")),
-    *(f"longest_share_{statistic}" for statistic in ("median", "low", "high")),
-    *(f"largest_share_{statistic}" for statistic in ("median", "low", "high")),
+    *(f"{name}_{statistic}" for name in ("row_amplitude", "amplification") for statistic in _STATISTICS),
+    *(f"{name}_{statistic}" for name in ("longest_share", "largest_share") for statistic in _STATISTICS[:3]),
     *("wear_harmonic", "wear_harmonic_rows", "wear_harmonic_share_median", "lobes_lowest", "lobes_highest"),
     "energy_residual",
 )
 KEPT = {
     "accuracy": (
         *("drawn_from", *_RUN, "f_omega", "status", "sensitive", "speedup_at_equal_error"),
-        *(f"error_{measure}" for measure in ("wear_l2", "peak", "revolution_peak")),
-        *(f"start_{measure}" for measure in ("wear_l2", "peak", "revolution_peak")),
+        *(f"{kind}_{name}" for kind in ("error", "start") for name in ("wear_l2", "peak", "revolution_peak")),
     ),
     "calibration": ("set", "id", "measured", "holds"),
     "chart": (
@@ -64,10 +62,7 @@ KEPT = {
     ),
 }
 """Tables of which pages need these columns only, to four digits."""
-
-
-ROWS = {"fine_margins": {"variation": "study"}}
-"""Snapshots that have only the rows with these values."""
+ROWS = {"fine_margins": {"variation": "study"}}  # snapshots that have only the rows with these values
 
 
 def update(folder: Path, results: Path) -> None:

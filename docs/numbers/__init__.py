@@ -3,12 +3,14 @@
 The module of the page of a study, ``studies/<name>/README.md``, is ``numbers.py`` beside it. A module has a
 function, ``numbers(tables)``, which returns the text for each name. ``tables["peaks"]`` is the table of this
 name in ``docs/data``, or in the folder ``data`` of a study, as pandas reads it; a name with slashes is a
-table elsewhere in the repository. A text may be a whole table (`table`), alone on its line of the page.
+table elsewhere in the repository. A text may be a whole table (`table`), alone on its line of the page. As an
+extension of Sphinx this package makes the texts MyST substitutions of their page.
 """
 
 import importlib.util
+import json
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 import pandas as pd
@@ -42,17 +44,16 @@ class Tables(dict[str, pd.DataFrame]):
         return next((path for path in paths if path.exists()), paths[0])
 
     def __missing__(self, name: str) -> pd.DataFrame:
-        table = files.read(self.path(name))
-        if files.description_path(self.path(name)).exists():
-            table.attrs["commit"] = files.read_origin(self.path(name))["provenance_git_commit"][:7]
-        self[name] = table
-        return table
+        path = self.path(name)
+        self[name] = files.read(path)
+        if files.description_path(path).exists():
+            self[name].attrs["commit"] = files.read_origin(path)["provenance_git_commit"][:7]
+        return self[name]
 
 
 def module_of(page: str) -> Path:
     """Return the file of the numbers of a page: ``docs/…/<page>.md``, or ``studies/…/<page>/README.md``."""
-    module = FOLDER / f"{page}.py"
-    return next(ROOT.glob(f"studies/**/{page}/numbers.py"), module)
+    return next(ROOT.glob(f"studies/**/{page}/numbers.py"), FOLDER / f"{page}.py")
 
 
 def numbers_of(page: str, tables: Tables) -> dict[str, str]:
@@ -129,3 +130,20 @@ def table(
         text[heading] = ["" if pd.isna(value) else write(value) for value in rows[column]]
     lines = [list(map(str, text.columns)), ["---"] * len(text.columns), *text.to_numpy().tolist()]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def _add_front_matter(app, docname, source):
+    """Put the names of a page into its front matter, where MyST looks for them."""
+    page, tables = PurePosixPath(docname).name, Tables()
+    if not module_of(page).exists():
+        return
+    front_matter = json.dumps({"substitutions": numbers_of(page, tables)}, ensure_ascii=False)
+    source[0] = f"---\nmyst: {front_matter}\n---\n{source[0]}"
+    for path in (module_of(page), *FOLDER.glob("*.py"), *map(tables.path, tables)):
+        app.env.note_dependency(str(path))
+
+
+def setup(app):
+    """Register the extension."""
+    app.connect("source-read", _add_front_matter)
+    return {"parallel_read_safe": True}

@@ -3,8 +3,8 @@
 from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, span, table
 from docs.numbers.claims import changes, claims, counts, variations
 
-_RIDGE = [1.1, 1.5, 2.0, 5.0, 11.0, 20.0]
-"""Moduli E of the ridge of Y4, at K = 0.5."""
+_STEPS = ("step 0.002", "step 0.001 around the peaks")
+_RIDGE = [1.1, 1.5, 2.0, 5.0, 11.0, 20.0]  # moduli E of the ridge of Y4, at K = 0.5
 
 
 def numbers(tables):
@@ -12,6 +12,7 @@ def numbers(tables):
     findings, margins = tables["findings"], tables["margins"]
     fine = rows(tables["fine_margins"], variation="study")
     longer, rigid = tables["longer_findings"], rows(tables["rigid_convergence"], complete=True)
+    margin = row(margins, variation="window from the crossing", id="C9b")
     return (
         {
             "parts": fixed(len(findings)),
@@ -26,13 +27,9 @@ def numbers(tables):
             "claims_others": claims(findings, "C12"),
             "same_verdict": fixed((margins.groupby("id")["holds"].nunique() == 1).sum()),
             "variations": variations(margins),
-            "changes_fine": changes(
-                findings, fine, ("step 0.002", "step 0.001 around the peaks"), values=True
-            ),
+            "changes_fine": changes(findings, fine, _STEPS, values=True),
             "changes_longer": changes(findings, longer, ("20 revolutions", "60 revolutions")),
-            "f6_rise_from_crossing": fixed(
-                row(margins, variation="window from the crossing", id="C9b")["measured"], 3
-            ),
+            "f6_rise_from_crossing": fixed(margin["measured"], 3),
         }
         | _peaks(tables["peaks"])
         | _longer_peaks(tables["peaks"], tables["longer_peaks"])
@@ -99,17 +96,16 @@ def _longer_peaks(peaks, longer):
 def _divergence(divergence, longer):
     within_20 = divergence[divergence["revolutions"] <= 20]
     unbounded = rows(within_20, status="unbounded")
-    runs = divergence["runs"].sum()
+    runs, weakest = divergence["runs"].sum(), rows(divergence, E=0.05)
     divergent, saturating = (
         rows(divergence, **{kind: True})["runs"].sum() for kind in ("divergent", "saturating")
     )
-    weakest = rows(divergence, E=0.05)
     return {
         "runs": fixed(runs),
         "unbounded": fixed(unbounded["runs"].sum()),
         "unbounded_2nd5nd": fixed(rows(unbounded, casing="2nd5nd")["runs"].sum()),
         "runs_2nd5nd": fixed(rows(divergence, casing="2nd5nd")["runs"].sum()),
-        "repeated": fixed(divergence[divergence["revolutions"] > 20]["runs"].sum()),
+        "repeated": fixed(runs - within_20["runs"].sum()),
         "divergent": fixed(divergent),
         "divergent_share": percent(divergent / runs, 1),
         "unbounded_in_the_end": fixed(rows(divergence, status="unbounded")["runs"].sum()),

@@ -81,11 +81,8 @@ def _gpu(gpu):
             },
         ),
         "gpu_compared": fixed(card["compared_runs"]),
-        "gpu_same_status": fixed(card["same_status"]),
-        "gpu_same_steps": fixed(card["same_steps"]),
-        "gpu_error_median": f"{card['peak_error_median']:.0e}",
-        "gpu_error_p99": f"{card['peak_error_p99']:.0e}",
-        "gpu_error_largest": f"{card['peak_error_largest']:.0e}",
+        **{f"gpu_{name}": fixed(card[name]) for name in ("same_status", "same_steps")},
+        **{f"gpu_error_{name}": f"{card[f'peak_error_{name}']:.0e}" for name in ("median", "p99", "largest")},
         "gpu_residual": f"{card['largest_residual']:.0e}",
         "gpu_host": fixed(card["gpu_s"] / card["kernel_s"], 1),
     }

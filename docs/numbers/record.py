@@ -3,7 +3,8 @@
 ``python -m docs.numbers.record`` does so after a change in this folder, from the tables as they are.
 """
 
-from docs.numbers import FOLDER, ROOT, Tables, numbers_of, readme
+from docs.numbers import FOLDER, ROOT, Tables, numbers_of
+from docs.numbers.claims import update_readme
 
 VALUES = FOLDER / "values.txt"
 
@@ -12,7 +13,7 @@ def record() -> None:
     """Write what the tables say now into `VALUES` and ``README.md``."""
     tables = Tables()
     VALUES.write_text(values(tables), encoding="utf-8")
-    readme.update(ROOT / "README.md", tables)
+    update_readme(ROOT / "README.md", tables)
 
 
 def values(tables: Tables) -> str:

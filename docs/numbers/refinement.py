@@ -11,6 +11,7 @@ def refinement(changes: pd.DataFrame, level: str) -> str:
     for (E, K, theta, order), peak in changes.groupby(["E", "K", "theta", "order"]):
         peak = peak.sort_values(level)
         finer = peak.iloc[1:]
+        differences = ", ".join(percent(change, 1) for change in finer["wear_difference"])
         lines.append(
             {
                 "(E, K)": f"({E:g}, {K:g})",
@@ -20,9 +21,7 @@ def refinement(changes: pd.DataFrame, level: str) -> str:
                 "Y, mm": mm(peak["amplitude"].iloc[0], 2),
                 "change of Y, %": _signed(finer["amplitude_change"]),
                 "of the worn volume, %": _signed(finer["volume_change"]),
-                "of the wear profile (L2), %": ", ".join(
-                    percent(change, 1) for change in finer["wear_difference"]
-                ),
+                "of the wear profile (L2), %": differences,
             }
         )
     return table(lines)

@@ -2,8 +2,7 @@
 
 from docs.numbers import fixed, percent, row, rows
 
-_LIMIT = 0.01
-"""Difference from a finer step within which a run counts as accurate."""
+_LIMIT = 0.01  # difference from a finer step within which a run counts as accurate
 
 
 def numbers(tables):

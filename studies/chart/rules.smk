@@ -86,7 +86,7 @@ rule chart:
         stress=rules.chart_stress.output[:1] if "fatigue" in config["chart"]["limits"] else [],
         blade=rules.blade.output.reduced_model,
         analysing=files_behind("extras.chart.table", "extras.chart.stiffening"),
-        drawing=files_behind("extras.plots.chart_moduli", "extras.plots.chart_peaks", "plots.titles"),
+        drawing=files_behind("extras.plots.chart", "plots.titles"),
     output:
         **{
             f"chart_{name}_png": shown(

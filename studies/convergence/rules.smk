@@ -10,14 +10,14 @@ CONVERGENCE = {
     "rigid_convergence": (["extras.verification.rigid_casing"], 15, PEAKS_AGAIN, {}),
     # how accurate the study's runs are: a table of what `bladerub verify` measures
     "accuracy": (
-        ["extras.verification.accuracy"],
+        ["extras.verification.verify"],
         30,
         {"maps": expand(rules.coating.output.map, coating=COATINGS)},
         {"peaks": PEAKS},
     ),
     # what a run costs at several tolerances of its step, and what its error is then
     "steps": (
-        ["extras.verification.steps", "extras.plots.steps"],
+        ["extras.verification.steps"],
         20,
         {},
         {"dpi": DPI, "simulated": {key: config[key] for key in SIMULATED}},

@@ -8,7 +8,7 @@ rule friction:
     input:
         blade=rules.blade.output.reduced_model,
         manifests=expand(rules.coating.output.manifest, coating=COMPARED),
-        code=files_behind("extras.friction.table", "extras.plots.friction", "study.summary"),
+        code=files_behind("extras.friction.table", "extras.plots.studies", "study.summary"),
     output:
         **drawn("friction", "Angle of the elements"),
         **described(table=f"{TABLES}/friction.csv"),

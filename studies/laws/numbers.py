@@ -4,6 +4,8 @@ import pandas as pd
 
 from docs.numbers import decimals, fixed, headings, mm, percent, row, rows, span, table
 
+_STATEMENTS = ["range of Y6 over its mean, K ≤ 0.1 (C9d)", "Y6 with θ = 0.15 over that with θ = 0 (C10b)"]
+
 
 def numbers(tables):
     """Return the text for each name on the page."""
@@ -18,14 +20,11 @@ def numbers(tables):
             | {"better": "better than plastic", "worse": "worse than plastic"},
         ),
         "viscosity": table(
-            [
-                {"": claim, "plastic": fixed(measured["plastic", part], 2)}
-                | {"2e4 Pa s": fixed(measured["viscoplastic_2e4", part], 2)}
-                for part, claim in (
-                    ("C9d", "range of Y6 over its mean, K ≤ 0.1 (C9d)"),
-                    ("C10b", "Y6 with θ = 0.15 over that with θ = 0 (C10b)"),
-                )
-            ]
+            {"": _STATEMENTS}
+            | {
+                heading: [fixed(measured[law, part], 2) for part in ("C9d", "C10b")]
+                for heading, law in (("plastic", "plastic"), ("2e4 Pa s", "viscoplastic_2e4"))
+            }
         ),
         "f6_over_sets": span(pd.to_numeric(rows(verdicts, id="C4a")["measured"]), decimals(3)),
         "f4_over_sets": span(pd.to_numeric(rows(verdicts, id="C4b")["measured"]), decimals(3)),

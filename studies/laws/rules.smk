@@ -5,7 +5,7 @@ from bladerub import plugins
 rule laws:
     input:
         model=files_behind("contact.illustration", "extras.laws.cycles"),
-        drawing=files_behind("extras.plots.law_cycles", *plugins.offered("LAWS").values()),
+        laws=files_behind(*plugins.offered("LAWS").values()),
     output:
         **drawn("laws", "Model", with_data=True),
     log:

@@ -6,7 +6,7 @@ from bladerub.extras.rig.spec import PLAN as RIGS
 rule rigs:
     input:
         rigs=RIGS.as_posix(),
-        code=files_behind("extras.rig.passes", "extras.plots.rigs", *plugins.offered("LAWS").values()),
+        code=files_behind("extras.rig.passes", "extras.plots.studies", *plugins.offered("LAWS").values()),
     output:
         **drawn("rigs", "Model", with_data=True),
         **described(table=f"{TABLES}/rigs.csv"),

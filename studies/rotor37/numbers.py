@@ -12,19 +12,15 @@ _AMPLITUDE = "rest_mu0.15.amplitude"
 
 def numbers(tables):
     """Return the text for each name on the page."""
-    blade, direct, interaction, coatings = (
-        tables[f"benchmarks/rotor37/{name}"].set_index("number")
-        for name in ("blade", "direct", "interaction", "coatings")
-    )
+    names = ("blade", "direct", "interaction", "coatings")
+    reference = {name: tables[f"benchmarks/rotor37/{name}"].set_index("number") for name in names}
+    blade, direct, interaction, coatings = reference.values()
     independent, nlstep = (tables[f"benchmarks/rotor37/{name}"] for name in ("independent", "nlstep"))
     friction = direct.loc[_AMPLITUDE]
     nlstep_error = rows(nlstep, number=_AMPLITUDE)["value"] / friction["value"] - 1
     return (
         {
-            "numbers_blade": fixed(len(blade)),
-            "numbers_direct": fixed(len(direct)),
-            "numbers_interaction": fixed(len(interaction)),
-            "numbers_coatings": fixed(len(coatings)),
+            **{f"numbers_{name}": fixed(len(numbers)) for name, numbers in reference.items()},
             "frequencies": _frequencies(blade),
             "lean_leading_edge": fixed(blade.loc["lean_leading_edge", "value"], 2),
             "lean_trailing_edge": fixed(blade.loc["lean_trailing_edge", "value"], 2),
@@ -61,13 +57,11 @@ def _direct(direct):
     for stiffening, case in (("without", "rest"), ("with", "stiffened")):
         for friction in ("0", "0.15"):
             name = f"{case}_mu{friction}"
-            orders = {
-                f"order {order}": mm(direct.loc[f"{name}.order_{order}", "value"], 4) for order in (2, 4, 6)
-            }
-            amplitude = _with_error(direct, f"{name}.amplitude", 1e3, 4)
-            lines.append(
-                {"centrifugal stiffening": stiffening, "μ": friction, "amplitude, mm": amplitude} | orders
-            )
+            line = {"centrifugal stiffening": stiffening, "μ": friction}
+            line["amplitude, mm"] = _with_error(direct, f"{name}.amplitude", 1e3, 4)
+            for order in (2, 4, 6):
+                line[f"order {order}"] = mm(direct.loc[f"{name}.order_{order}", "value"], 4)
+            lines.append(line)
     return table(lines)
 
 
@@ -87,16 +81,9 @@ def _independent(independent, direct):
     }
     massless = rows(independent, treatment="massless", modes=50, steps=20).merge(direct, on="number")
     orders = massless[massless["number"].str.contains("order")]
+    differences = [f"{100 * (value / direct_amplitude - 1):+.2f}" for value in integrators.values()]
     return {
-        "independent": table(
-            [
-                {
-                    "independent integrator": name,
-                    "difference, %": f"{100 * (value / direct_amplitude - 1):+.2f}",
-                }
-                for name, value in integrators.items()
-            ]
-        ),
+        "independent": table({"independent integrator": list(integrators), "difference, %": differences}),
         "independent_step": percent(abs(amplitude("massless", 50, 10) / amplitude("massless", 50) - 1), 2),
         "independent_orders_nm": fixed(1e9 * (orders["value_x"] - orders["value_y"]).abs().max()),
     }
@@ -135,9 +122,8 @@ def _rigid_peaks(interaction):
 
 def _coatings(coatings):
     lines = []
-    for coating in coatings.index[coatings.index.str.endswith("deepest_wear")].str.removesuffix(
-        ".deepest_wear"
-    ):
+    for number in coatings.index[coatings.index.str.endswith(".deepest_wear")]:
+        coating = number.removesuffix(".deepest_wear")
         E, theta = re.match(r"bumps_E(.+)_K.+_theta(.+)", coating).groups()
         line = {"coating": f"E = {E} GPa, θ = {theta}"}
         for order in (4, 6):
@@ -150,9 +136,8 @@ def _coatings(coatings):
 
 
 def _nodes(nodes):
-    shift = (
-        nodes.groupby(["E", "theta", "order"])["f_peak"].agg(lambda speeds: speeds.max() - speeds.min()).max()
-    )
+    speeds = nodes.groupby(["E", "theta", "order"])["f_peak"]
+    shift = (speeds.max() - speeds.min()).max()
     finest = rows(nodes, interface_nodes=24)
     changes, soft = greatest_changes(finest), greatest_changes(finest[finest["E"] < 1])
     return {

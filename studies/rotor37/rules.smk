@@ -52,7 +52,7 @@ rule rotor37_independent:
     params:
         config=rotor37_set,
     script:
-        "scripts/rotor37_independent.py"
+        "scripts/rotor37_checks.py"
 
 
 def nlstep_program(wildcards):
@@ -79,7 +79,7 @@ rule rotor37_nlstep:
     params:
         config=rotor37_set,
     script:
-        "scripts/rotor37_nlstep.py"
+        "scripts/rotor37_checks.py"
 
 
 rule rotor37:

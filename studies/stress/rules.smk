@@ -6,7 +6,7 @@ rule stress:
         **SIMULATING,
         mesh=rules.blade.output.mesh,
         peaks=rules.peaks.output[0],
-        code=files_behind("extras.stress.run", "extras.plots.stress"),
+        code=files_behind("extras.stress.run", "extras.plots.studies"),
     output:
         **drawn("stress_peaks", "6. Sweeps and long runs"),
         **described(table=shown(f"{TABLES}/stress.csv", "stress", "6. Sweeps and long runs")),

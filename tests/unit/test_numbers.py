@@ -7,8 +7,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from docs.numbers import FOLDER, Tables, numbers_of, readme
-from docs.numbers.claims import changed_sentences, changes
+from docs.numbers import FOLDER, Tables, numbers_of
+from docs.numbers.claims import changed_sentences, changes, update_readme
 from docs.numbers.record import VALUES, values
 
 ROOT = Path(__file__).parents[2]
@@ -49,11 +49,11 @@ def test_each_sentence_is_on_its_page():
 
 def test_the_readme_has_the_claims_of_the_tables(tables, tmp_path):
     page = shutil.copy(ROOT / "README.md", tmp_path)
-    readme.update(Path(page), tables)
+    update_readme(Path(page), tables)
     assert Path(page).read_text(encoding="utf-8") == (ROOT / "README.md").read_text(encoding="utf-8")
     changed = Tables()
     changed["findings"] = tables["findings"].replace({"holds": {"partly": "no"}})
-    readme.update(Path(page), changed)
+    update_readme(Path(page), changed)
     assert " 0 hold partly" in Path(page).read_text(encoding="utf-8")
 
 
@@ -73,11 +73,10 @@ def site(tmp_path):
     ignored = shutil.ignore_patterns("__pycache__", "*-metadata.json")
     shutil.copytree(FOLDER, docs / "numbers", ignore=ignored)
     shutil.copytree(ROOT / "docs" / "data", docs / "data", ignore=ignored)
-    shutil.copy(ROOT / "docs" / "page_numbers.py", docs)
     (docs / "model.md").write_text("# Model\n\n{{ runs_soft }} runs, {{ worse_than_rigid }} times\n")
     (docs / "conf.py").write_text(
         f"import sys\nsys.path[:0] = [{str(docs)!r}, {str(tmp_path)!r}]\nroot_doc = 'model'\n"
-        "extensions = ['myst_parser', 'page_numbers']\nmyst_enable_extensions = ['substitution']\n"
+        "extensions = ['myst_parser', 'docs.numbers']\nmyst_enable_extensions = ['substitution']\n"
     )
     return docs
 

@@ -15,9 +15,7 @@ from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
 
-CASING, E, K, F_OMEGA = "2nd", 2.0, 0.5, 0.19
-"""The run: a coating at the speed of its peak on order 6."""
-
+CASING, E, K, F_OMEGA = "2nd", 2.0, 0.5, 0.19  # the run: a coating at the speed of its peak on order 6
 LAYER = {
     "heat_capacity": 2e6,
     "conductivity": 5.0,

@@ -6,8 +6,13 @@ job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.chart import stiffening, table
-from bladerub.extras.plots.chart_moduli import chart_map, chart_safe
-from bladerub.extras.plots.chart_peaks import chart_explanation, chart_pareto, chart_stiffening
+from bladerub.extras.plots.chart import (
+    chart_explanation,
+    chart_map,
+    chart_pareto,
+    chart_safe,
+    chart_stiffening,
+)
 from bladerub.settings.study import typed
 
 config, unit = typed(snakemake.config), snakemake.params.modulus_unit

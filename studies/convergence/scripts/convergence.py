@@ -7,9 +7,8 @@ job.log_to(snakemake.log[0])
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras.plots.steps import steps as draw_steps
 from bladerub.extras.study_runs import important_runs, study_runs
-from bladerub.extras.verification import accuracy, refinement, rigid_casing, steps
+from bladerub.extras.verification import refinement, rigid_casing, steps, verify
 from bladerub.io import tables
 from bladerub.settings.study import typed
 from bladerub.study.peaks import COLUMNS
@@ -27,8 +26,8 @@ match Path(snakemake.output.table).stem:
     case "accuracy":
         important = important_runs(config, Path(snakemake.input.maps[0]).parent)
         candidates = {"all": study_runs(config), "important": important}
-        table = accuracy.table(blade, config, candidates, report=job.log)
+        table = verify.table(blade, config, candidates, report=job.log)
     case "steps":
         table = steps.table(blade, config, report=job.log)
-        figure = draw_steps(table)
+        figure = steps.draw_steps(table)
 outputs.save(snakemake, figure, table=table)

@@ -5,7 +5,7 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.friction.table import table as compare
-from bladerub.extras.plots.friction import friction as draw
+from bladerub.extras.plots.studies import friction as draw
 from bladerub.plots.scales import Scales
 
 constant, coulomb = snakemake.input.manifests[::2], snakemake.input.manifests[1::2]

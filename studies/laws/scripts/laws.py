@@ -6,7 +6,6 @@ job.log_to(snakemake.log[0])
 
 from bladerub.contact.spec import Coating
 from bladerub.extras.laws import cycles
-from bladerub.extras.plots.law_cycles import law_cycles
 
 panels = cycles.panels(Coating(**snakemake.params.coating))
-outputs.save(snakemake, law_cycles(panels), data=cycles.table(panels))
+outputs.save(snakemake, cycles.draw(panels), data=cycles.table(panels))

@@ -4,7 +4,7 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extras.plots.rigs import rigs
+from bladerub.extras.plots.studies import rigs
 from bladerub.extras.rig.passes import compared, table
 from bladerub.extras.rig.spec import read_rigs
 

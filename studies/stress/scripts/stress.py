@@ -5,7 +5,7 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras.plots.stress import stress as draw
+from bladerub.extras.plots.studies import stress as draw
 from bladerub.extras.stress.run import table
 from bladerub.io import tables
 from bladerub.plots.scales import Scales

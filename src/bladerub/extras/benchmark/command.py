@@ -56,8 +56,8 @@ def benchmark(options: argparse.Namespace) -> None:
     """Measure, and print the figures."""
     from bladerub.settings.coatings import RigidCoating
 
-    config = inputs.read_config(options)
-    require(options, rounds=(1, 1000), cores=(1, 1_000_000))
+    config, on_gpu = inputs.read_config(options), options.gpu is not None
+    require(options, rounds=(1, 1000), cores=(1, 1_000_000), gpu=(1, 1_000_000))
     if all(isinstance(entry, RigidCoating) for entry in config.coatings):
         raise BadInput("coatings: must have an abradable one, as contact with it is what is measured")
     for n in options.nodes:
@@ -65,21 +65,31 @@ def benchmark(options: argparse.Namespace) -> None:
             raise BadInput(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
     if options.nodes and (source := config.blade.plugged("source")) and source.plugged("matrices"):
         raise BadInput("--nodes: a blade of matrices has the interface nodes that its folder marks")
-    if options.gpu is not None:
-        _on_gpu(options, config)
-        return
-    if config.contact.tip_turns:
+    if on_gpu and (options.nodes or options.stress):
+        raise BadInput("--gpu: goes with neither --nodes nor --stress")
+    if config.contact.tip_turns and not on_gpu:
         raise BadInput("contact.tip_turns = true: must be false, as the plain loop has no profile that turns")
-    if options.table:
-        from bladerub.extras.benchmark import record
 
-        record.recorded(options.table)  # another table is refused before anything takes time
+    from bladerub.extras.benchmark import record
+
+    if options.table:  # another table is refused before anything takes time
+        record.recorded(options.table, record.GPU_COLUMNS if on_gpu else record.COLUMNS)
         inputs.require_writable("--table", options.table)
+    figures, config = (_on_gpu if on_gpu else _on_processor)(options, config)
+    if options.table:
+        from bladerub.io.provenance import provenance
+
+        rows, key = (record.gpu_row, ["gpu"]) if on_gpu else (record.rows, record.MACHINE)
+        record.replace(options.table, rows(figures), key, provenance(config.plain()))
+    inputs.show(options, figures, _of_gpu_in_words if on_gpu else _in_words)
+
+
+def _on_processor(options: argparse.Namespace, config: "Config") -> "tuple[dict[str, Any], Config]":
     stored_blade, config = inputs.read_blade(options, config)
-    blade = stored_blade.reduced
 
     from bladerub.extras.benchmark import estimate, measure
 
+    blade = stored_blade.reduced
     figures = measure.benchmark(blade, config, options.rounds, options.cores, _report_stage)
     if options.nodes:
         _report_stage("building blades with more interface nodes")
@@ -89,32 +99,18 @@ def benchmark(options: argparse.Namespace) -> None:
         with inputs.refused(OSError, BadInput, because="--stress: "):
             mesh = stored_blade.mesh_path
             figures["cost_of_stress"] = estimate.cost_of_stress(mesh, blade, config, options.rounds)
-    if options.table:
-        from bladerub.io.provenance import provenance
-
-        record.replace(options.table, record.rows(figures), record.MACHINE, provenance(config.plain()))
-    inputs.show(options, figures, _in_words)
+    return figures, config
 
 
-def _on_gpu(options: argparse.Namespace, config: "Config") -> None:
-    require(options, gpu=(1, 1_000_000))
-    if options.nodes or options.stress:
-        raise BadInput("--gpu: goes with neither --nodes nor --stress")
-
-    from bladerub.extras.benchmark import gpu, record
+def _on_gpu(options: argparse.Namespace, config: "Config") -> "tuple[dict[str, Any], Config]":
+    from bladerub.extras.benchmark import gpu
     from bladerub.extras.gpu import device
-    from bladerub.io.provenance import provenance
 
-    if options.table:
-        record.recorded(options.table, gpu.COLUMNS)  # another table is refused before anything takes time
-        inputs.require_writable("--table", options.table)
     with inputs.refused(BadInput):
         name = device.describe()
     blade, config = inputs.read_blade(options, config)
     figures = gpu.compare(blade.reduced, config, device.run, options.gpu, _report_stage)
-    if options.table:
-        record.replace(options.table, gpu.row(name, figures), ["gpu"], provenance(config.plain()))
-    inputs.show(options, {"gpu": name, **figures}, _of_gpu_in_words)
+    return {"gpu": name, **figures}, config
 
 
 def _of_gpu_in_words(figures: dict[str, Any]) -> str:
@@ -142,11 +138,10 @@ def _report_stage(stage: str) -> None:
 def _in_words(figures: dict[str, Any]) -> str:
     rates, kinds = figures["steps_per_second"], ("contact", "free")
     rows = [("million steps a second", *kinds)]
-    for loop, words in _LOOPS.items():
-        rows.append((words, *(f"{rates[loop][kind] / 1e6:.3g}" for kind in kinds)))
-    for loop in ("numpy", "numba"):
+    rows += [(words, *(f"{rates[loop][kind] / 1e6:.3g}" for kind in kinds)) for loop, words in _LOOPS.items()]
+    for loop, words in (("numpy", "NumPy"), ("numba", "numba")):
         ratios = (figures[f"ratio_to_{loop}{end}"] for end in ("", "_free"))
-        rows.append((f"times {'NumPy' if loop == 'numpy' else loop}", *(f"{ratio:.3g}" for ratio in ratios)))
+        rows.append((f"times {words}", *(f"{ratio:.3g}" for ratio in ratios)))
     rows.append(("fraction of peak", *(f"{figures[f'fraction_of_peak_{kind}']:.2f}" for kind in kinds)))
     lines = [
         f"{figures['processor']}, vectors of {figures['vector_bits']} bits",

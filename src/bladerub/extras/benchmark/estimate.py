@@ -1,12 +1,10 @@
 """How long the whole study takes on this machine, and what the stress of its runs costs, from drawn ones.
 
-1. Runs at even distances in the list of the study, so from all coatings and speeds, are computed and stored
-   as the study does it, in as many threads as it would have jobs. Those that grow are followed further.
+1. Runs at even distances in the list of the study are computed and stored as the study does it, in as many
+   threads as it would have jobs. Those that grow are followed further.
 2. Repetitions of runs in further jobs (``COSTS`` of `bladerub.plugins`), such as the members of ensembles,
-   cost what the drawn runs near a peak do. How many there are is known but for those of two peaks that have a
-   speed in common.
-3. Every coating has a job for its runs and its map, and these further ones: each starts Python and imports
-   packages.
+   cost what the drawn runs near a peak do. Their number is known but where two peaks share a speed.
+3. The job of the runs and the map of each coating, and these further ones, start Python and import packages.
 
 Not contained are the blade, tables and figures, and what Snakemake itself does.
 """
@@ -43,15 +41,13 @@ from bladerub.study.solver import each_done
 from bladerub.study.store import stored_run, write_run
 
 DRAWN, DRAWN_WITH_STRESS = 128, 24
-_JOB_OF_RUNS = ("study.job", "study.maps")
-"""What the job of the runs and the map of a coating imports."""
+_JOB_OF_RUNS = ("study.job", "study.maps")  # what the job of the runs and the map of a coating imports
 
 
 def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
-    """Estimate the time of the study `config` from `DRAWN` of its runs, on so many `cores`.
+    """Estimate the time of the study `config` from `DRAWN` of its runs: ``study_minutes`` on so many `cores`.
 
-    Returns CPU seconds of one run (``seconds_per_run``, of the length in the config), the number of ``runs``
-    and ``members``, the ``cores``, and the ``study_minutes`` of wall time on them.
+    ``seconds_per_run`` are CPU seconds of one run, of the length in the config.
     """
     config = config.replaced("solver.device", "cpu")
     runs = study_runs(config)
@@ -86,14 +82,10 @@ def _cost(blade: ReducedBlade, config: Config, folder: Path, run: StudyRun) -> t
     seconds, revolutions = time.thread_time() - start, spec.revolutions
     if row.confirmation_key:  # it grew, and was followed
         revolutions = config.analysis.divergence.confirmation_revolutions
-    per_run = seconds * spec.revolutions / revolutions
-    return per_run, seconds - per_run, _is_near_a_peak(blade, config, run)
-
-
-def _is_near_a_peak(blade: ReducedBlade, config: Config, run: StudyRun) -> bool:
-    low, high = config.analysis.peaks.speed_window
+    per_run, (low, high) = seconds * spec.revolutions / revolutions, config.analysis.peaks.speed_window
     over_crossing = run.f_omega / first_frequency(blade, [run.f_omega])[0]
-    return any(low <= order * over_crossing <= high for order in peak_orders(config, run.case.casing))
+    is_near = any(low <= order * over_crossing <= high for order in peak_orders(config, run.case.casing))
+    return per_run, seconds - per_run, is_near
 
 
 def _start(module: str) -> float:
@@ -106,11 +98,10 @@ def _start(module: str) -> float:
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # as in the jobs of the study
 def cost_of_stress(mesh: str | Path, blade: ReducedBlade, config: Config, rounds: int) -> float:
-    """Return the CPU time of `DRAWN_WITH_STRESS` runs of the study with their stress, over that without.
+    """Return the CPU time of `DRAWN_WITH_STRESS` stored runs with their stress, over that without.
 
-    Each is set up, integrated and stored as the study does it. The median of so many `rounds` counts, of
-    which one without effect comes first. `mesh` is the ``mesh.h5`` of the blade. Raises `BadInput` where it
-    is of matrices alone.
+    The median of so many `rounds` counts, of which one without effect comes first. `mesh` is the ``mesh.h5``
+    of the blade. Raises `BadInput` where it is of matrices alone.
     """
     from bladerub.extras.stress.run import BladeStress  # other measurements do without
 

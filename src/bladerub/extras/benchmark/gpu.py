@@ -1,7 +1,7 @@
 """The runs of a study on a GPU: how fast, and how equal to those on this processor."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from operator import attrgetter
 from typing import Any
@@ -12,21 +12,12 @@ import pandas as pd
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
 from bladerub.extras.benchmark import record
-from bladerub.extras.gpu.batch import Device
 from bladerub.extras.gpu.many import simulate_many
 from bladerub.extras.study_runs import study_runs
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec
 from bladerub.study.solver import each_done
-
-COLUMNS = [
-    *("gpu", "processor", "cores", "gpu_runs", "handed_over", "kernel_s", "gpu_s", "gpu_steps_per_second"),
-    *("compared_runs", "seconds_per_run", "same_status", "same_steps", "same_contact_steps"),
-    *("peak_error_median", "peak_error_p95", "peak_error_p99", "peak_error_largest", "largest_residual"),
-]
-"""Columns of the table, described in ``columns.csv``."""
-
 
 _COMPARED = attrgetter("status", "n_steps", "n_contact_steps", "revolution_peak", "energy.residual")
 """What is kept of a result, since all of them would fill the memory."""
@@ -43,9 +34,9 @@ def compare(
 
     `device` is `bladerub.extras.gpu.device.run`, or takes its arguments; `n_compared` runs, at even
     distances in the list of the study, are repeated on all cores of this machine. Returns the numbers of
-    `COLUMNS` but for the ``gpu``: ``kernel_s`` of the loops, ``gpu_s`` from the runs' description to their
-    results, ``seconds_per_run`` of a core of this processor, and the relative error of the largest
-    displacement in a revolution, the largest of the revolutions of a run.
+    `record.GPU_COLUMNS` but for the ``gpu``: ``kernel_s`` of the loops, ``gpu_s`` with what the host does,
+    ``seconds_per_run`` of a core of this processor, and the relative error of the largest displacement in a
+    revolution, the largest of the revolutions of a run.
     """
     single = [run_spec(config, run.case, run.f_omega) for run in study_runs(config) if not run.row]
     described = [spec for spec in single if not (spec.coating.is_rigid or spec.coating.coulomb)]
@@ -58,7 +49,7 @@ def compare(
         handed_over.append(runs)
         report(line)
 
-    watched: Device = partial(device, watch=kernel.append)
+    watched = partial(device, watch=kernel.append)
     start = time.perf_counter()
     gpu_runs = {n: _COMPARED(result) for n, result in simulate_many(blade, described, watched, note)}
     seconds = time.perf_counter() - start
@@ -96,8 +87,3 @@ def agreement(pairs: list[tuple[tuple, tuple]]) -> dict[str, float]:
         **{f"peak_error_{name}": float(np.quantile(errors, share)) for name, share in quantiles.items()},
         "largest_residual": float(on_gpu.residual.max()),
     }
-
-
-def row(gpu: str, figures: Mapping[str, Any]) -> pd.DataFrame:
-    """Arrange what `compare` returns for the GPU of this name."""
-    return pd.DataFrame([{"gpu": gpu, **figures}], columns=COLUMNS)

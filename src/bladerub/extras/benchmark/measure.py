@@ -26,17 +26,13 @@ from bladerub.numerics.vectors import LANES, broadcast, lane_sum
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
-SHARE = 1 / 3
-"""Share of the steps in contact."""
-REVOLUTIONS = 2
-REPEATS = 25
-"""Marches of the loop of the study in each round: free ones take half a millisecond, so the median counts."""
+SHARE, REVOLUTIONS = 1 / 3, 2  # share of the steps in contact
+REPEATS = 25  # marches of the loop of the study in each round: free ones take half a millisecond
 PEAK_TURNS = 2_000_000
 PEAK_CHAINS = 12
 """Products and sums in progress at once: more than a processor needs to be busy, fewer than its registers."""
 
-FLOPS_PER_MODE = 7
-"""Of a step by itself: recurrence 3, damping loss 4; 2 more for each coordinate of the tip."""
+FLOPS_PER_MODE = 7  # of a step by itself: recurrence 3, damping loss 4; 2 more for each coordinate of the tip
 FLOPS_PER_FLIGHT = 29
 """Of a mode in free flight: increment and last step 9, damping loss 12, mean 4, bound 4; and the tip."""
 FLOPS_PER_ELEMENT = 17 + 52  # force once, and wear with its ledger
@@ -53,9 +49,8 @@ def benchmark(
 ) -> dict[str, Any]:
     """Measure the time loop beside plain loops and beside the arithmetic of the processor, `rounds` times.
 
-    The coating and speed are those in the middle of the lists of the study `config`, which would run on
-    `cores` (all by default). `progress` is called with the name of each stage. Returns the figures that
-    ``bladerub benchmark --json`` prints.
+    `cores` (all by default) are those of the estimate, `progress` is called with the name of each stage.
+    Returns the figures that ``bladerub benchmark --json`` prints.
     """
     progress("finding a run with contact in a third of the steps")
     touching, share = in_contact(blade, middle_run(config))
@@ -75,13 +70,9 @@ def benchmark(
         for name, spec in specs.items():
             per_element = set_up(blade, spec)[1].steps_per_element
             steps = per_element * spec.coating.n_elements * spec.revolutions
-            seconds[name].append(
-                {
-                    "numpy": _plain(in_python, blade, spec, steps) / steps,
-                    "numba": _plain(compiled, blade, spec, steps) / steps,
-                    "production": production(blade, spec) / steps,
-                }
-            )
+            plainly = (_plain(loop, blade, spec, steps) / steps for loop in (in_python, compiled))
+            loops = (*plainly, production(blade, spec) / steps)
+            seconds[name].append(dict(zip(record.LOOPS, loops, strict=True)))
     progress("timing runs drawn from the study")
     study = estimate(blade, config, cores or record.cores())
     tables = {name: pd.DataFrame(rows) for name, rows in seconds.items()}
@@ -125,10 +116,7 @@ def in_contact(blade: ReducedBlade, spec: RunSpec) -> tuple[RunSpec, float]:
         nearer = replace(spec, casing=replace(spec.casing, interference=interference))
         result = simulate(blade, nearer)
         share = result.n_contact_steps / result.n_steps
-        if share > SHARE:
-            upper = interference
-        else:
-            lower = interference
+        lower, upper = (lower, interference) if share > SHARE else (interference, upper)
     return nearer, share
 
 
@@ -136,11 +124,8 @@ def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
     """Simulate a run, and count the useful operations of its mean step; comparisons are not."""
     rule, simulation = set_up(blade, spec)
     n, n_under = rule.omega.size, int(2 * simulation.tip.half_width) + 1
-    progress = [_revolve(simulation) for _ in range(spec.revolutions)]
-    steps, flights, touching = (
-        sum(getattr(revolution, count) for revolution in progress)
-        for count in ("n_steps", "n_flights", "n_contact_steps")
-    )
+    progress = pd.DataFrame([_revolve(simulation) for _ in range(spec.revolutions)]).sum()
+    steps, flights, touching = progress[["n_steps", "n_flights", "n_contact_steps"]]
     tip = 2 * 2 * blade.n_interface  # product and sum for each coordinate
     contact = tip * n + tip * blade.n_interface * 2
     contact += blade.n_interface * (n_under * FLOPS_PER_ELEMENT + FLOPS_PER_NODE)

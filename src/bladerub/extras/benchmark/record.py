@@ -1,4 +1,4 @@
-"""The machine that the benchmark runs on, and a table of several: a row for each and kind of motion."""
+"""The machine that the benchmark runs on, and tables of several: with the loops there, and with a GPU."""
 
 import os
 import platform
@@ -11,8 +11,7 @@ from llvmlite import binding
 
 from bladerub.io import tables
 
-MACHINE = ["processor", "vector_bits", "cores"]
-"""Columns that tell machines apart."""
+MACHINE = ["processor", "vector_bits", "cores"]  # columns that tell machines apart
 LOOPS = ("numpy", "numba", "production")
 _WHOLE = ["peak_flops", "seconds_per_run", "study_minutes", "cost_of_stress"]
 COLUMNS = [
@@ -20,17 +19,20 @@ COLUMNS = [
     *(f"steps_per_second_{loop}" for loop in LOOPS),
     *("ratio_to_numpy", "ratio_to_numba", "fraction_of_peak", *_WHOLE),
 ]
-"""Columns of the table, described in ``columns.csv``."""
+"""Columns of the table of the loops, a row for each machine and kind of motion (``columns.csv``)."""
+GPU_COLUMNS = [
+    *("gpu", "processor", "cores", "gpu_runs", "handed_over", "kernel_s", "gpu_s", "gpu_steps_per_second"),
+    *("compared_runs", "seconds_per_run", "same_status", "same_steps", "same_contact_steps"),
+    *("peak_error_median", "peak_error_p95", "peak_error_p99", "peak_error_largest", "largest_residual"),
+]
+"""Columns of the table of GPUs."""
 
 _WIDEST = {"avx512f": 512, "avx": 256, "sse2": 128, "neon": 128}
 """Bits of the vectors that a processor has by what LLVM says of it, widest first."""
 
 
 def describe() -> dict[str, Any]:
-    """Describe this one by `MACHINE`: its ``processor``, the ``vector_bits`` of that, and its ``cores``.
-
-    The cores are those that this process may use. Bits are 64, those of one number, if LLVM knows no vectors.
-    """
+    """Describe this one by `MACHINE`; bits are 64, those of one number, if LLVM knows no vectors."""
     features = binding.get_host_cpu_features()
     bits = (width for name, width in _WIDEST.items() if features.get(name))
     return {"processor": _processor(), "vector_bits": next(bits, 64), "cores": cores()}
@@ -52,10 +54,7 @@ def _processor() -> str:
 
 
 def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
-    """Arrange what `bladerub.extras.benchmark.measure.benchmark` returns in two rows: with contact, and free.
-
-    With the ``cost_of_stress``, if it was measured.
-    """
+    """Arrange what `measure.benchmark` returns in two rows: with contact, and free."""
     records = []
     for motion, ending in (("contact", ""), ("free", "_free")):
         steps = [figures["steps_per_second"][loop][motion] for loop in LOOPS]
@@ -63,6 +62,11 @@ def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
         of_machine, totals = ([figures.get(name) for name in names] for names in (MACHINE, _WHOLE))
         records.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *totals])
     return pd.DataFrame(records, columns=COLUMNS)
+
+
+def gpu_row(figures: Mapping[str, Any]) -> pd.DataFrame:
+    """Arrange what `gpu.compare` returns, with the name of the ``gpu``."""
+    return pd.DataFrame([figures], columns=GPU_COLUMNS)
 
 
 def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[str, str]) -> None:
@@ -77,9 +81,6 @@ def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[
     tables.write(path, new, origin, "%.4g", [Path(__file__).with_name("columns.csv")])
 
 
-def recorded(path: str | Path, columns: list[str] = COLUMNS) -> pd.DataFrame:
-    """Read the table at `path`, which has these columns; it has no rows if there is none.
-
-    Raises as `bladerub.io.tables.read` if there is another table.
-    """
+def recorded(path: str | Path, columns: list[str]) -> pd.DataFrame:
+    """Read the table at `path`, without rows if there is none; raises as `bladerub.io.tables.read`."""
     return tables.read(path, columns) if Path(path).exists() else pd.DataFrame(columns=columns)

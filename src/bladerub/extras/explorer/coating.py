@@ -20,15 +20,10 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.summary import displacement_peak, spectral_peak
 from bladerub.study.variants import of_case
 
-MOST_ANGLES = 500
-"""Wear is averaged to at most so many arcs of the circumference."""
-LAST_ORDER = ORDERS[-1] + 1
-"""Spectra are kept up to this engine order at least, the end of the axis of orders."""
-AMPLITUDE_FLOOR = 1e-8
-"""Smallest spectral amplitude that the page resolves, m; far below the colour scale of the figures."""
-_SMALLEST = 1e-15
-"""Amplitude of a blade at rest in the pictures of growth, m: a logarithmic axis has no zero."""
-
+MOST_ANGLES = 500  # wear is averaged to at most so many arcs of the circumference
+LAST_ORDER = ORDERS[-1] + 1  # up to which spectra are kept at least, the end of the axis of orders
+AMPLITUDE_FLOOR = 1e-8  # smallest spectral amplitude that the page resolves, m; far below the colour scale
+_SMALLEST = 1e-15  # amplitude of a blade at rest in the pictures of growth, m: a logarithmic axis has no zero
 VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]
 """Columns of ``divergence.csv`` that the page shows, with the status of the run they rest on."""
 
@@ -48,12 +43,8 @@ def arcs(n_elements: int) -> np.ndarray:
 
 
 def kept_orders(f_omega: np.ndarray, order: np.ndarray, max_frequency: float) -> np.ndarray:
-    """Count the engine orders `order` (m,), from 0, that are kept at each of the speeds `f_omega` (n,).
-
-    All up to `max_frequency`, at which the figures end, and up to `LAST_ORDER`.
-    """
-    step = order[1] - order[0]
-    last = np.maximum(LAST_ORDER, max_frequency / f_omega) + step  # the bin around the end is drawn
+    """Count the engine orders `order` (m,) that are kept at the speeds `f_omega` (n,): up to both ends."""
+    last = np.maximum(LAST_ORDER, max_frequency / f_omega) + order[1] - order[0]  # the bin around it is drawn
     return np.searchsorted(order, last, side="right")
 
 
@@ -105,19 +96,17 @@ def mm(metres: np.ndarray) -> np.ndarray:
 def of_runs(
     coating: CoatingMap, divergence: pd.DataFrame, runs: list[ManifestRow], spectrum_revolutions: int
 ) -> dict[str, list]:
-    """Figures of every run of one coating, each a list over its speeds, from its map, table and manifest.
+    """Figures of every run of one coating, each a list over its speeds; lengths in mm.
 
     `VERDICTS`, `BANDS` (NaN without an ensemble) and ``verdict_status`` are of the run that the verdict rests
-    on, all others of the run of the study: lengths in mm, the peak of the last `spectrum_revolutions`,
-    ``order`` and ``order_amplitude`` of the largest spectral amplitude, NaN without a spectrum. Raises
-    `ValueError` if table, manifest and map are not of the same speeds.
+    on, all others of the run of the study: the peak of the last `spectrum_revolutions`, ``order`` and
+    ``order_amplitude`` of the largest spectral amplitude, NaN without a spectrum. Raises `ValueError` if
+    table, manifest and map are not of the same speeds.
     """
     verdicts = of_case(divergence, coating.case).sort_values("f_omega")
     sorted_runs = sorted(runs, key=lambda run: run.f_omega)
-    for source, speeds in (
-        ("divergence.csv", verdicts["f_omega"].to_numpy()),
-        ("manifest", np.array([run.f_omega for run in sorted_runs])),
-    ):
+    listed = [run.f_omega for run in sorted_runs]
+    for source, speeds in (("divergence.csv", verdicts["f_omega"]), ("manifest", listed)):
         if not np.array_equal(speeds, coating.f_omega):
             raise ValueError(f"{source}: not the speeds of the map of {coating.case.name}; make it again")
     peak = [displacement_peak(row, spectrum_revolutions) for row in coating.revolution_peak]
@@ -143,35 +132,25 @@ def command(case: CoatingCase, configs: list[str]) -> str:
 
     `configs` are the files that were laid over config/config.yaml.
     """
-    if case.is_rigid:
-        coating = f"--coating rigid --friction {case.friction:.12g}"
-    else:
-        angle = f"--theta {case.theta:.12g}" if case.law == "theta" else f"--friction {case.friction:.12g}"
-        coating = f"--E {case.E:.12g} --K {case.K:.12g} {angle}"
+    coating = "--coating rigid" if case.is_rigid else f"--E {case.E:.12g} --K {case.K:.12g}"
+    coating += f" --theta {case.theta:.12g}" if case.law == "theta" else f" --friction {case.friction:.12g}"
     overlays = f" --config {' '.join(map(shlex.quote, configs))}" if configs else ""
     options = "".join(f" --{key.replace('_', '-')} {value:.12g}" for key, value in case.own.items())
     return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}{options}"
 
 
 def logarithmic_steps(values: np.ndarray, low: float, high: float, dtype: type) -> np.ndarray:
-    """Write `values` in equal ratios from `low` to `high`, both positive, as unsigned integers `dtype`.
-
-    Step 1 stands for `low` and below, the greatest step for `high` and above, 0 for NaN.
-    """
+    """Write `values` as whole numbers, 1 to the greatest in equal ratios from `low` to `high`, 0 for NaN."""
     top = np.iinfo(dtype).max
     share = np.log(np.clip(values, low, high) / low) / np.log(high / low)
     return np.where(np.isnan(values), 0, 1 + np.rint((top - 1) * np.nan_to_num(share))).astype(dtype)
 
 
 def log_range(values: np.ndarray, floor: float) -> tuple[float, float]:
-    """Find the ends of a logarithmic scale that holds all `values` above `floor`, which is positive.
-
-    The upper is twice the lower at least; the lower is `floor` if there is no such value.
-    """
+    """Find the ends of a logarithmic scale of `values` above `floor`, the upper at least twice the lower."""
     visible = values[values > floor]
-    if visible.size == 0:
-        return floor, 2 * floor
-    return float(visible.min()), float(max(visible.max(), 2 * visible.min()))
+    low = visible.min() if visible.size else floor
+    return float(low), float(visible.max(initial=2 * low))
 
 
 def packed(data: bytes) -> str:
@@ -180,8 +159,5 @@ def packed(data: bytes) -> str:
 
 
 def json_text(value: Any) -> str:
-    """Write `value` as JSON that a script element can hold: nothing in it ends the element or begins another.
-
-    Arrays become lists; NaN and infinities, which JSON lacks, become null. Numbers keep all their digits.
-    """
+    """Write `value`, `plain`, as JSON that a script element can hold: nothing in it ends or begins one."""
     return json.dumps(plain(value), allow_nan=False, separators=(",", ":")).translate(_ESCAPES)

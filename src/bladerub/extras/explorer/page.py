@@ -24,8 +24,7 @@ from bladerub.study.manifest import read_manifest
 from bladerub.study.maps import CoatingMap, read_map
 from bladerub.study.variants import of_case
 
-_PROGRAM = ["data.js", "choice.js", "pictures.js", "words.js", "main.js"]
-"""In the order in which they use each other."""
+_PROGRAM = ["data.js", "choice.js", "pictures.js", "words.js", "main.js"]  # as they use each other
 _PEAK = {"order": "order", "f_peak": "f", "amplitude": "Y", "reason": "reason", "draws": "draws"}
 _PEAK |= {"amplitude_low": "low", "amplitude_high": "high"}
 """Columns of ``peaks.csv`` and of the bands by their names in the page."""
@@ -43,12 +42,9 @@ def build(
 
     `map_paths` and `manifest_paths` have each coating in the same order, `peaks` and `divergence` are
     ``peaks.csv`` and ``divergence.csv``, `configs` the files that were laid over config/config.yaml.
-    `settings` from the config: ``max_frequency`` (normalised), ``amplitude_range`` (m),
-    ``growth_revolutions``, ``spectrum_revolutions``, ``modulus_unit`` (Pa); of the blade
-    ``f1_hz`` and ``doubts``.
-
-    Raises `OSError` if a map or manifest cannot be read, and `ValueError` if the coatings were not computed
-    at the same speeds, or the tables are of other ones.
+    `settings` are those of rule ``explorer`` (``max_frequency`` is normalised, others SI units), and
+    ``f1_hz`` and ``doubts`` of the blade. Raises `OSError` if a map or manifest cannot be read, and
+    `ValueError` if the coatings were not computed at the same speeds, or the tables are of other ones.
     """
     coatings, data, scales = [], [], None
     revolutions, max_frequency = settings["spectrum_revolutions"], settings["max_frequency"]
@@ -86,11 +82,7 @@ def build(
 
 
 def _scales(coating_map: CoatingMap, max_frequency: float) -> dict[str, Any]:
-    """Axes that all coatings share, from any of them.
-
-    ``speed_edges`` and ``speed_of_bin`` are the bins of the maps as of `bladerub.plots.bins.with_gaps`, with
-    NaN in the gaps; ``angle_edges`` are in degrees; ``kept`` is how many entries of ``order`` each speed has.
-    """
+    """Axes that all coatings share, from any of them: bins of speed with gaps, of the angle in degrees."""
     speed_edges, speed_of_bin = bins.with_gaps(coating_map.f_omega, np.arange(coating_map.f_omega.size))
     return {
         "f_omega": coating_map.f_omega,
@@ -104,10 +96,7 @@ def _scales(coating_map: CoatingMap, max_frequency: float) -> dict[str, Any]:
 
 
 def _coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[str, Any]:
-    """Name, properties and resonant peaks (``peaks.csv``, perhaps with bands; lengths in mm) of one coating.
-
-    What is missing is NaN: a peak, with its ``reason``, and the band of one without an ensemble.
-    """
+    """Name, properties and peaks of one coating, lengths in mm; a peak or band that is missing is NaN."""
     shown = of_case(peaks, case).reindex(columns=list(_PEAK)).rename(columns=_PEAK)
     shown[["Y", "low", "high"]] *= 1e3
     return {

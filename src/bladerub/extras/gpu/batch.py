@@ -24,10 +24,8 @@ from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.extras.gpu import formulas
 from bladerub.numerics.vectors import LANES
 
-WARP = 32
-"""Lanes of a warp: four groups of the `LANES` nodes."""
-MOST_RUNS = 4096
-"""Runs of a piece of work at most: what a device leaves of each takes half a megabyte."""
+WARP = 32  # lanes of a warp: four groups of the `LANES` nodes
+MOST_RUNS = 4096  # runs of a piece of work at most: what a device leaves of each takes half a megabyte
 COMPLETED, UNBOUNDED, HANDED_OVER = range(3)
 """How a run ended: at its end, beyond the displacement limit, or where the loop can't go on."""
 COUNTS = ("status", "revolutions", "steps", "last_steps", "contact_steps", "reversed_steps")
@@ -70,21 +68,16 @@ def refusal(spec: RunSpec, simulation: Simulation) -> str:
         return f"the scheme {spec.scheme} corrects its steps"
     if simulation.tip.start.size > LANES:
         return f"the tip has more than {LANES} nodes"
-    return _refusal_of(replace(spec.coating.element_law, parameters=()))
-
-
-@cache
-def _formulas_of(law: ElementLaw) -> str:
-    return formulas.of_law(module_of(law), source_of(law))
+    return _formulas_of(replace(spec.coating.element_law, parameters=()))[1]
 
 
 @cache  # a translation takes as long as setting up a run
-def _refusal_of(law: ElementLaw) -> str:
+def _formulas_of(law: ElementLaw) -> tuple[str, str]:
+    """Formulas of a law, or why there are none."""
     try:
-        _formulas_of(law)
+        return formulas.of_law(module_of(law), source_of(law)), ""
     except ValueError as error:
-        return str(error)
-    return ""
+        return "", str(error)
 
 
 def variant_of(spec: RunSpec, simulation: Simulation) -> Variant:
@@ -122,7 +115,7 @@ def source(variant: Variant) -> str:
             *(f"constexpr int {name} = {value};" for name, value in constants.items()),
             *(f"constexpr double {name} = {value!r};" for name, value in numbers.items()),
             formulas.of_contact(),
-            _formulas_of(variant.law),
+            _formulas_of(variant.law)[0],
             (FOLDER / "loop.cu").read_text(encoding="utf-8"),
         ]
     )

@@ -15,11 +15,9 @@ from bladerub.io.errors import BadInput
 if TYPE_CHECKING:
     import cupy
 
-WARPS = 8
-"""Warps that a multiprocessor holds at once: more would leave each too few registers."""
+WARPS = 8  # warps that a multiprocessor holds at once: more would leave each too few registers
 OPTIONS = ("--std=c++17", f"-DWARPS_PER_PROCESSOR={WARPS}")
-SHARE = 0.6
-"""Of the memory of the GPU, for what is computed together."""
+SHARE = 0.6  # of the memory of the GPU, for what is computed together
 
 
 class NoGpuError(BadInput):

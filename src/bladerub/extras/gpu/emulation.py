@@ -26,10 +26,9 @@ def is_possible() -> bool:
 
 
 def run(works: Iterable[Work], real: str = "double") -> Iterator[Output]:
-    """Carry out the loop for pieces of work; raises `OSError` if there is no compiler.
+    """Carry out the loop with numbers of the C++ type `real`; raises `OSError` if there is no compiler.
 
-    It computes with numbers of the C++ type `real`. What it reads, and what it keeps from step to step in
-    arrays, are doubles: forces, wear and ledger.
+    What it reads, and what it keeps from step to step, are doubles: forces, wear and ledger.
     """
     return (_run(work, real) for work in works)
 

@@ -35,22 +35,18 @@ def of_law(law: ModuleType, source: str = "") -> str:
     """
     fields = law.Element._fields
     loaded = ", ".join(f"load(from, j + 8 * {row})" for row in range(len(fields)))
+    load = "HERE Element load_element(const double* from, const integer& j)"
     return (
-        f"struct Element {{ real {', '.join(fields)}; }};\n"
-        f"constexpr int LAW_FIELDS = {len(fields)};\n"
-        "HERE Element load_element(const double* from, const integer& j) "
-        f"{{ return Element{{{loaded}}}; }}\n"
+        f"struct Element {{ real {', '.join(fields)}; }};\nconstexpr int LAW_FIELDS = {len(fields)};\n"
+        f"{load} {{ return Element{{{loaded}}}; }}\n"
     ) + _with_callees([getattr(law, name) for name in LAW], source)
 
 
 def _with_callees(functions: Sequence[Callable], source: str = "") -> str:
     """Translate functions, each after those that it calls."""
     translations: dict[str, tuple[Callable, str]] = {}
-    no_file = {
-        definition.name: definition
-        for definition in ast.parse(source).body
-        if isinstance(definition, ast.FunctionDef)
-    }
+    statements = ast.parse(source).body
+    no_file = {node.name: node for node in statements if isinstance(node, ast.FunctionDef)}
 
     def add(function: Callable) -> None:
         name = function.__name__
@@ -91,29 +87,25 @@ class _Translation:
     def text(self) -> str:
         """Translate the function."""
         arguments = ", ".join(f"const {_RECORDS.get(name, 'real')}& {name}" for name in self.arguments)
-        statements = [statement for statement in self.body.body if not self._is_docstring(statement)]
+        statements = self.body.body[ast.get_docstring(self.body) is not None :]
         lines = "".join(f"  {self._statement(statement)}\n" for statement in statements)
         kind = "Pair" if isinstance(statements[-1].value, ast.Tuple) else "real"
         return f"HERE {kind} {self.body.name}({arguments}) {{\n{lines}}}"
 
-    @staticmethod
-    def _is_docstring(statement: ast.stmt) -> bool:
-        return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
-
     def _statement(self, statement: ast.stmt) -> str:
-        if isinstance(statement, ast.Return) and isinstance(statement.value, ast.Tuple):
-            return f"return Pair{{{', '.join(map(self._expression, statement.value.elts))}}};"
-        if isinstance(statement, ast.Return):
-            return f"return {self._expression(statement.value)};"
-        if isinstance(statement, ast.Assign) and len(statement.targets) == 1:
-            target, value = statement.targets[0], self._expression(statement.value)
-            if isinstance(target, ast.Name):
-                return f"{self._declared(target.id)} = {value};"
-            if isinstance(target, ast.Tuple) and len(target.elts) == 2:
-                pair = "_and_".join(name.id for name in target.elts)
-                members = zip(target.elts, ("first", "second"), strict=True)
-                parts = [f"{self._declared(name.id)} = {pair}.{part};" for name, part in members]
-                return " ".join([f"const Pair {pair} = {value};", *parts])
+        match statement:
+            case ast.Return(ast.Tuple(values)):
+                return f"return Pair{{{', '.join(map(self._expression, values))}}};"
+            case ast.Return(value):
+                return f"return {self._expression(value)};"
+            case ast.Assign([ast.Name(name)], value):
+                text = self._expression(value)
+                return f"{self._declared(name)} = {text};"
+            case ast.Assign([ast.Tuple([ast.Name(first), ast.Name(second)])], value):
+                pair = f"{first}_and_{second}"
+                parts = f"const Pair {pair} = {self._expression(value)};"
+                parts += f" {self._declared(first)} = {pair}.first;"
+                return f"{parts} {self._declared(second)} = {pair}.second;"
         raise self._unknown(statement)
 
     def _declared(self, name: str) -> str:

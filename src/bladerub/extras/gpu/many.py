@@ -25,16 +25,14 @@ def simulate_many(
 ) -> Iterator[tuple[int, RunResult]]:
     """Simulate runs on a device; yield the number of each with its result, in any order.
 
-    A run that the loop of the device does not know, or can't finish since Newton's method does not converge
-    in one of its steps, is simulated as `bladerub.contact.run.simulate` does; `report` is told how many these
-    are, with a line for a log. Raises as `simulate`.
+    One that the device does not know, or can't finish, is simulated here; `report` is told how many these
+    are, with a line for a log. Raises as `bladerub.contact.run.simulate`.
     """
     variants: dict[Variant, list[tuple[int, Recurrence, Simulation]]] = defaultdict(list)
     left_out: dict[str, list[int]] = defaultdict(list)
     for number, spec in enumerate(specs):
         rule, simulation = set_up(blade, spec)
-        reason = batch.refusal(spec, simulation)
-        if reason:
+        if reason := batch.refusal(spec, simulation):
             left_out[reason].append(number)
         else:
             variants[batch.variant_of(spec, simulation)].append((number, rule, simulation))

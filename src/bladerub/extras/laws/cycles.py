@@ -5,18 +5,24 @@ from dataclasses import replace
 from typing import Any
 
 import pandas as pd
+from matplotlib.figure import Figure
 
 from bladerub.contact.illustration import LoadingCycle, loading_cycle
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
+from bladerub.plots import style
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4
 STEPS = 400  # of each branch
 VISCOSITY = 1e4  # Pa s
+_LINES = [
+    {"color": style.DARK, "linestyle": "-", "linewidth": 1.8},
+    {"color": style.ORANGE, "linestyle": (0, (5, 1.5)), "linewidth": 1.5},
+    {"color": style.BLUE, "linestyle": (0, (1.5, 1.2)), "linewidth": 1.5},
+]
 
-Panels = Mapping[str, Mapping[str, LoadingCycle]]
-"""Cycles by their labels, by the title of their panel."""
+Panels = Mapping[str, Mapping[str, LoadingCycle]]  # cycles by their labels, by the title of their panel
 
 
 def panels(coating: Coating) -> Panels:
@@ -58,3 +64,22 @@ def table(panels: Panels) -> pd.DataFrame:
         for cycles in panels.values()
         for label, loading in cycles.items()
     )
+
+
+@style.styled
+def draw(panels: Panels) -> Figure:
+    """Draw a panel for each title, with at most three cycles by their labels; stress in MPa."""
+    figure = style.new_figure(style.PAGE, 0.8 * style.PAGE)
+    grid = figure.subplots(-(-len(panels) // 2), 2, sharex=True, sharey=True, squeeze=False)
+    for axes in grid.flat[len(panels) :]:
+        axes.remove()
+    for axes, (title, cycles) in zip(grid.flat, panels.items(), strict=False):
+        for (label, cycle), line in zip(cycles.items(), _LINES, strict=False):
+            megapascal = cycle.stress * cycle.coating.modulus_unit / 1e6
+            axes.plot(100 * cycle.strain, megapascal, label=label, **line)
+        axes.set(title=title)
+        axes.legend(loc="upper left", frameon=False)
+    grid[0, 0].set(xlim=(0, None), ylim=(0, None))  # of all, which share their axes
+    figure.supxlabel(r"compressive strain $\varepsilon$, %", fontsize="medium")
+    figure.supylabel(r"compressive stress $\sigma$, MPa", fontsize="medium")
+    return figure

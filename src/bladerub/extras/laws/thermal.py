@@ -29,8 +29,7 @@ PARAMETERS = {
     "softening_exponent": ("1", 0.1, 10.0, "exponent of the loss of strength with the rise"),
 }
 
-_LEAST = 0.01
-"""Strength that is left beyond the rise at which it would be lost: forces stay defined."""
+_LEAST = 0.01  # strength that is left beyond the rise at which it would be lost: forces stay defined
 
 
 def strength(coating: Coating, rise: np.ndarray) -> np.ndarray:

@@ -23,8 +23,7 @@ PARAMETERS = {
     "viscosity": ("Pa s", 0.0, 1e9, "stress beyond the elastic limit over the rate of the plastic strain"),
 }
 
-_AT_ONCE = 20.0
-"""ρ from which on the flow of a step ends within it: what is left is e^−ρ of the overstress."""
+_AT_ONCE = 20.0  # ρ from which on the flow of a step ends within it: what is left is e^−ρ of the overstress
 
 
 class Element(NamedTuple):

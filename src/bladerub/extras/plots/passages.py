@@ -88,8 +88,7 @@ _VERDICTS = {
     "unbounded": RED,
 }
 _HATCHES = {"divergent": "//", "unbounded": "xx"}
-_FLOOR = 1e-3
-"""Lowest amplitude that is drawn, mm: below it a vibration has died out."""
+_FLOOR = 1e-3  # lowest amplitude that is drawn, mm: below it a vibration has died out
 _GROWTH = {True: {"color": DARK, "linewidth": 0.7}, False: {"color": GREY, "linewidth": 0.5}}
 
 

@@ -1,17 +1,25 @@
-"""What an engineer asks of a finished study: where is trouble, how sure is that, and what helps."""
+"""What an engineer asks of a finished study: where is trouble, how sure is that, and what helps.
 
+Quantities are written in the units of an engineer.
+"""
+
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+import numpy as np
 import pandas as pd
 
 from bladerub.extras.report.results import Results
-from bladerub.extras.report.words import properties, ranges
-from bladerub.study.grid import listed_case
+from bladerub.settings.study import Config
+from bladerub.settings.units import pressure_in_words
+from bladerub.study.grid import CoatingCase, listed_case, modulus_unit, run_spec
 from bladerub.study.orders import excites, peak_orders, used_casings
 from bladerub.study.peaks import crossing_speed
 from bladerub.study.summary import LARGE_DISPLACEMENT
 
+NONE = "–"  # a quantity that is not known
+_FINEST = 1e-4  # mm
 QUIET = 0.1  # of the highest peak of a coating, below which a speed counts as free of interaction
 WIDE_BAND = 0.1  # of the amplitude of a peak, from which on it counts as chaotic
 _ELSEWHERE = 1.05  # times the highest peak, from which on vibration beside the peaks is worth a warning
@@ -95,3 +103,63 @@ def unsought(results: Results) -> Iterator[tuple[str, dict[int, float]]]:
         orders = [order for order in range(1, 13) if order not in sought and excites(entry, order)]
         if orders:
             yield casing, {order: 60 * results.f1_hz * crossing_speed(coating, order) for order in orders}
+
+
+def mm(length: float, digits: int = 3) -> str:
+    """Write a length (m) in mm."""
+    if math.isnan(length):
+        return NONE
+    return f"below {_FINEST}" if 0 < 1e3 * length < _FINEST else f"{1e3 * length:.{digits}g}"
+
+
+def rpm(speed: float) -> str:
+    """Write a speed in rpm, whole."""
+    return NONE if math.isnan(speed) else f"{speed:,.0f}"
+
+
+def percent(share: float) -> str:
+    """Write a share in percent."""
+    return f"{100 * share:.2g}" if share < 0.995 else "100"
+
+
+def band(low: float, high: float) -> str:
+    """Write the ends of a band (m) in mm, to four digits: most bands are narrow."""
+    return NONE if math.isnan(low + high) else f"{mm(low, 4)} to {mm(high, 4)}"
+
+
+def properties(config: Config, case: CoatingCase) -> dict[str, str]:
+    """Write casing, moduli and direction of the force of a coating, each with its unit."""
+    modulus = {
+        key: "rigid" if case.is_rigid else pressure_in_words(modulus_unit(config) * getattr(case, key))
+        for key in ("E", "K")
+    }
+    force = f"θ = {math.degrees(case.theta):.3g}°" if case.law == "theta" else f"μ = {case.friction:.3g}"
+    return {"casing": case.casing, **modulus, "theta": force}
+
+
+def title(config: Config, case: CoatingCase) -> str:
+    """Name a coating by its properties, and by what it has of its own."""
+    about, spec = properties(config, case), run_spec(config, case, 0.0)
+    layer = "rigid" if case.is_rigid else f"E = {about['E']}, K = {about['K']}"
+    own = {
+        "damping_ratio": f"damping ratio {percent(spec.damping_ratio)} %",
+        "layer_thickness": f"layer {mm(spec.coating.thickness)} mm",
+        "interference": f"interference {mm(spec.casing.interference)} mm",
+    }
+    return ", ".join([f"casing {case.casing}", layer, about["theta"], *(own[key] for key in case.own)])
+
+
+def ranges(mask: np.ndarray, speeds: np.ndarray, most: int = 3) -> str:
+    """Write the ranges of ascending `speeds` (n,), rpm, with a true `mask` (n,): the widest, and the ends."""
+    steps = np.diff(np.concatenate([[0], np.asarray(mask, dtype=int), [0]]))
+    starts, ends = np.flatnonzero(steps == 1), np.flatnonzero(steps == -1) - 1
+    parts = list(zip(speeds[starts].tolist(), speeds[ends].tolist(), strict=True))
+    widest = sorted(sorted(parts, key=lambda part: part[0] - part[1])[:most])
+    text = ", ".join(_range(*part) for part in widest)
+    if len(parts) > most:
+        text += f" and {len(parts) - most} more within {_range(parts[0][0], parts[-1][1])}"
+    return text or NONE
+
+
+def _range(low: float, high: float) -> str:
+    return rpm(low) if low == high else f"{rpm(low)} to {rpm(high)}"

@@ -12,7 +12,7 @@ import numpy as np
 import yaml
 
 from bladerub.blade.accuracy import doubts
-from bladerub.extras.report import answers, words
+from bladerub.extras.report import answers
 from bladerub.extras.report.results import STRESS, Results, files
 from bladerub.io.errors import package
 from bladerub.io.folders import ROOT
@@ -32,12 +32,13 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
     jinja = package("jinja2", "study")
     loader = jinja.PackageLoader(__package__, "")
     environment = jinja.Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= vars(words)
+    filters = ("band", "mm", "percent", "pressure_in_words", "properties", "ranges", "rpm", "title")
+    environment.filters |= {name: getattr(answers, name) for name in filters}
     config, explorer = results.config, results.folder / "explorer.html"
-    rotor = results.f1_hz, config.figures.nominal_speed
-    scales = Scales(modulus_unit(config), config.blade.length, *rotor)
+    nominal = config.figures.nominal_speed
+    scales = Scales(modulus_unit(config), config.blade.length, results.f1_hz, nominal)
     return environment.get_template("page.html").render(
-        NONE=words.NONE,
+        NONE=answers.NONE,
         STRESS=STRESS,
         results=results,
         config=config,
@@ -47,7 +48,7 @@ def build(results: Results, shown: Sequence[str], folder: Path) -> str:
         shown=shown,
         step=np.diff(np.unique(results.runs.rpm)).min(initial=np.inf),
         runs=dict(list(results.runs.groupby("name"))),
-        doubts=doubts(results.accuracy, config.figures.nominal_speed),
+        doubts=doubts(results.accuracy, nominal),
         is_of_config=results.origin.get("provenance_config_sha256") == config_digest(config.plain()),
         specs={case.casing: run_spec(config, case.with_own(), 0.0) for case in results.cases.values()},
         modulus_unit=modulus_unit(config),
@@ -92,9 +93,8 @@ def _origin(results: Results) -> Iterator[tuple[str, str]]:
 def _citation() -> str:
     """Say how to cite the program and the paper, from CITATION.cff."""
     about = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-    works = [f"{_authors(work)}: {work['title']}" for work in (about, *about["references"])]
+    works = []
+    for work in (about, *about["references"]):
+        authors = (author.get("name") or author["family-names"] for author in work["authors"])
+        works.append(f"{', '.join(authors)}: {work['title']}")
     return f"{'; '.join(works)} (version {about['version']})."
-
-
-def _authors(work: dict) -> str:
-    return ", ".join(author.get("name") or author["family-names"] for author in work["authors"])

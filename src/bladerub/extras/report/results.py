@@ -1,6 +1,5 @@
 """What the files of a finished study say of each coating at each speed."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,9 +18,7 @@ from bladerub.study.maps import CoatingMap, read_map
 from bladerub.study.summary import spectral_peak
 from bladerub.study.variants import of_case
 
-STRESS = "last_von_mises"
-"""Column of ``stress.csv`` that the page shows, Pa; not every study has the table."""
-
+STRESS = "last_von_mises"  # column of ``stress.csv`` that the page shows, Pa; not every study has the table
 BLADE = "blade/reduced_model.h5"
 
 
@@ -69,8 +66,8 @@ def read(config: Config, folder: Path) -> Results:
     peak_table = tables.read(folder / "tables/peaks.csv", peaks.COLUMNS)
     peak_table = with_further(peak_table, folder / "tables/peak_bands.csv")
     cases = {case.name: case for case in coating_cases(config)}
-    runs = _joined({name: _runs(folder, case, verdicts) for name, case in cases.items()})
-    rows = _joined({name: _peaks(folder, case, peak_table, runs) for name, case in cases.items()})
+    runs = pd.concat([_runs(folder, case, verdicts) for case in cases.values()], ignore_index=True)
+    rows = pd.concat([_peaks(folder, case, peak_table, runs) for case in cases.values()], ignore_index=True)
     runs["rpm"], rows["rpm"] = 60 * f1_hz * runs.f_omega, 60 * f1_hz * rows.f_peak
     coatings = _coatings(rows, runs)
     chart = folder / "tables/chart_choice.csv"
@@ -109,6 +106,7 @@ def _runs(folder: Path, case: CoatingCase, verdicts: pd.DataFrame) -> pd.DataFra
         # 1 or 0; NaN where no manifest tells
         unconverged=[float(row.unconverged_steps > 0) if row else np.nan for row in known],
         unbalanced=[float(row.energy_residual > UNBALANCED) if row else np.nan for row in known],
+        name=case.name,
     )
 
 
@@ -122,10 +120,10 @@ def _peaks(folder: Path, case: CoatingCase, peak_table: pd.DataFrame, runs: pd.D
     run = runs.loc[runs.name == case.name, ["f_omega", "divergent", "saturating", "max_wear"]]
     rows = rows.merge(run, "left", left_on="f_peak", right_on="f_omega")
     path = folder / "tables/stress.csv"
-    if path.exists():
-        stress = of_case(tables.read(path, [*peaks.COLUMNS, STRESS]), case)
-        return rows.merge(stress[["order", STRESS]], "left", on="order")
-    return rows.assign(**{STRESS: np.nan})
+    known = path.exists()
+    stress = tables.read(path, [*peaks.COLUMNS, STRESS]) if known else peak_table.assign(**{STRESS: np.nan})
+    of_orders = of_case(stress, case)[["order", STRESS]]
+    return rows.merge(of_orders, "left", on="order").assign(name=case.name)
 
 
 def _coatings(rows: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
@@ -134,7 +132,3 @@ def _coatings(rows: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
     of_runs = runs.groupby("name")[["max_wear", "divergent", "unbounded"]]
     deepest, shares = of_runs.max().max_wear.rename("deepest"), of_runs.mean().add_suffix("_share")
     return highest.join(deepest).join(shares)
-
-
-def _joined(parts: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
-    return pd.concat([part.assign(name=name) for name, part in parts.items()], ignore_index=True)

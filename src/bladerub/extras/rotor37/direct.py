@@ -3,10 +3,6 @@
 Speed, damping, friction and gap are those of the example of blade and casing in NLstep (Monjaraz-Tec, Gross
 and Krack, Computers and Structures 260, 2022, 106698), which follows Piollet, Nyssen and Batailly (J. Sound
 Vib. 460, 2019, 114878): no centrifugal stiffening, 50 revolutions.
-
-`independent` repeats the case without friction by an integrator that shares no code with the time loop
-(`bladerub.extras.verification.impact`): with a massless boundary as the program of the example, by Moreau's
-time stepping, and with stiff springs.
 """
 
 from collections.abc import Mapping
@@ -26,14 +22,10 @@ from bladerub.extras.verification import impact
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, run_spec
 
-SPEED = 1344.0
-"""rad/s; four times in a revolution is close to the first frequency."""
+SPEED = 1344.0  # rad/s; four times in a revolution is close to the first frequency
 REVOLUTIONS = 50
 FRICTION = (0.0, 0.15)
-CASING = "bumps"
-
-STEPS = 20
-"""Time steps of `independent` in the passage of a coating element; half as many are tried as well."""
+STEPS = 20  # time steps of `independent` in the passage of a coating element; half as many are tried as well
 
 
 def unstiffened(blade: ReducedBlade) -> ReducedBlade:
@@ -44,24 +36,24 @@ def unstiffened(blade: ReducedBlade) -> ReducedBlade:
 
 def spec_of(config: Config, blade: ReducedBlade, friction: float) -> RunSpec:
     """Describe the run."""
-    spec = run_spec(config, CoatingCase.rigid(CASING, friction), SPEED / (2 * np.pi * blade.f1_hz))
+    spec = run_spec(config, CoatingCase.rigid("bumps", friction), SPEED / (2 * np.pi * blade.f1_hz))
     return replace(spec, revolutions=REVOLUTIONS)
 
 
 def runs(config: Config, blade: ReducedBlade) -> dict[str, RunResult]:
     """Simulate the cases, by name: with and without friction, and each with stiffening as well."""
-    results = {}
-    for friction in FRICTION:
-        for name, model in (("rest", unstiffened(blade)), ("stiffened", blade)):
-            results[f"{name}_mu{friction:g}"] = simulate(model, spec_of(config, blade, friction))
-    return results
+    models = {"rest": unstiffened(blade), "stiffened": blade}
+    return {
+        f"{name}_mu{friction:g}": simulate(model, spec_of(config, blade, friction))
+        for friction in FRICTION
+        for name, model in models.items()
+    }
 
 
 def numbers(results: Mapping[str, RunResult]) -> pd.DataFrame:
     """Measure the results of `runs`."""
-    return pd.concat(
-        [of_direct_contact(name, result, REVOLUTIONS) for name, result in results.items()], ignore_index=True
-    )
+    measured = (of_direct_contact(name, result, REVOLUTIONS) for name, result in results.items())
+    return pd.concat(measured, ignore_index=True)
 
 
 def last_revolution(results: Mapping[str, RunResult]) -> pd.DataFrame:
@@ -77,21 +69,20 @@ def last_revolution(results: Mapping[str, RunResult]) -> pd.DataFrame:
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def independent(config: Config, blade: ReducedBlade) -> pd.DataFrame:
-    """Simulate the case without stiffening and friction: its `numbers` by each way to compute it.
+    """Simulate the case without stiffening and friction by an integrator of its own: its `numbers`.
 
-    ``modes`` are those that move; the massless boundary has the others as static displacement.
+    That shares no code with the time loop (`bladerub.extras.verification.impact`): a massless boundary as in
+    NLstep, Moreau's time stepping and stiff springs. ``modes`` are those that move.
     """
-    model = unstiffened(blade)
-    spec = spec_of(config, blade, 0.0)
+    model, spec = unstiffened(blade), spec_of(config, blade, 0.0)
     modes, damping = modes_at(model, spec.f_omega), spec.damping_ratio
     parts = []
     for steps in (STEPS // 2, STEPS):
         variant = replace(spec, steps_per_element=steps)
         step = impact.time_step(blade, variant)
-        rules = {("massless", n): impact.massless_boundary(modes, damping, step, n) for n in (10, 20, 50)} | {
-            ("moreau_jean_0", modes.omega.size): impact.moreau_jean(modes, damping, step, 0.0),
-            ("penalty_1e9", modes.omega.size): impact.penalty(modes, damping, step, 1e9),
-        }
+        rules = {("massless", n): impact.massless_boundary(modes, damping, step, n) for n in (10, 20, 50)}
+        rules["moreau_jean_0", modes.omega.size] = impact.moreau_jean(modes, damping, step, 0.0)
+        rules["penalty_1e9", modes.omega.size] = impact.penalty(modes, damping, step, 1e9)
         for (treatment, n), rule in rules.items():
             result = impact.simulate(rule, model, variant)
             measures = of_displacement("rest_mu0", result.radial_displacement, REVOLUTIONS)

@@ -29,22 +29,17 @@ from bladerub.extras.rotor37.numbers import of_displacement
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 
-VARIABLE = "BLADERUB_NLSTEP"
-"""Environment variable with the folder of `FUNCTION`."""
+VARIABLE = "BLADERUB_NLSTEP"  # environment variable with the folder of `FUNCTION`
 FUNCTION = "sim_contact3D.m"
 OCTAVE = "octave-cli"
 DRIVER = Path(__file__).parent / "octave" / "direct_contact.m"
 """What Octave runs; the class next to it is the model as NLstep expects it."""
 
-CASES = (
-    (0.0, 20, 1500),
-    (0.0, 20, 3000),
-    (0.15, 10, 1500),
-    (0.15, 20, 1500),
-    (0.15, 20, 3000),
-    (0.15, 50, 4000),
-)
-"""Coefficient of friction, modes that move, and time steps in a revolution."""
+CASES = [  # coefficient of friction, modes that move, and time steps in a revolution
+    *((0.0, 20, 1500), (0.0, 20, 3000)),
+    *((0.15, 10, 1500), (0.15, 20, 1500), (0.15, 20, 3000), (0.15, 50, 4000)),
+]
+COLUMNS = ["modes", "steps_per_revolution", "number", "value", "unit"]
 
 _DIFFERENCE = 1e-6  # rad, for the slope of the casing
 
@@ -55,14 +50,12 @@ def massless_boundary(
     """Reduce the blade to its interface and free modes without mass of the interface (MacNeal 1971).
 
     `n_modes` free modes move, damped by `damping_ratio`; the others respond by their static displacement.
-    Returns mass, damping and stiffness (3 j + n_modes, 3 j + n_modes) for the displacement of each of the j
-    interface nodes against the outward normal, with the rotation and in the direction that is left, m, then
-    the modes, kg^1/2 m; kg, N s/m and N/m in the first. Raises `ValueError` if the modes left do not span the
-    displacements of the interface.
+    Returns mass, damping and stiffness (3 j + n_modes, 3 j + n_modes), kg, N s/m and N/m, for displacements
+    of each of the j interface nodes along its `directions`, m, then the modes, kg^1/2 m. Raises `ValueError`
+    if the modes left do not span the displacements of the interface.
     """
     omega, shapes = mode_shapes_at(blade, f_omega)
-    n_boundary = 3 * blade.n_interface
-    n_static = omega.size - n_modes
+    n_boundary, n_static = 3 * blade.n_interface, omega.size - n_modes
     if n_static < n_boundary:
         raise ValueError(f"{n_modes} moving modes: {n_static} are left for the {n_boundary} displacements")
     interface = shapes[:n_boundary].reshape(blade.n_interface, 3, -1)
@@ -96,16 +89,14 @@ def case(blade: ReducedBlade, spec: RunSpec, n_modes: int, steps: int) -> dict[s
     _, y, z = blade.node_position.T
     clearance = running_clearance(blade, spec)[:, None]
     angle = (spec.casing.start_angle + np.arctan2(y, z))[:, None] + speed * time
-    gap_before, gap_after = (
-        casing.gap(spec.casing, clearance, angle + sign * _DIFFERENCE) for sign in (-1, 1)
-    )
+    before, after = (casing.gap(spec.casing, clearance, angle + sign * _DIFFERENCE) for sign in (-1, 1))
     return {
         "mass": mass,
         "damping": damping,
         "stiffness": stiffness,
         "time": time,
         "gap": casing.gap(spec.casing, clearance, angle),
-        "opening_speed": (gap_after - gap_before) / (2 * _DIFFERENCE) * speed,
+        "opening_speed": (after - before) / (2 * _DIFFERENCE) * speed,
         "sliding_speed": tip_radii(blade)[0] * speed,
         "friction": np.tan(spec.coating.theta),
     }
@@ -134,10 +125,9 @@ def describe(function: Path) -> str:
 
 
 def integrate(function: Path, stated: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
-    """Let NLstep integrate a `case`.
+    """Let NLstep integrate a `case`: displacement of node 1 at all times but the first, m, and any contact.
 
-    Returns the radial displacement of node 1 at each time but the first, m, and whether any node is then in
-    contact. Raises `RuntimeError` if the contact forces of a step did not converge.
+    Raises `RuntimeError` if the contact forces of a step did not converge.
     """
     with tempfile.TemporaryDirectory() as scratch:
         case_file, result_file = Path(scratch) / "case.mat", Path(scratch) / "result.mat"
@@ -163,9 +153,7 @@ def table(config: Config, blade: ReducedBlade, function: Path, threads: int) -> 
         displacement, in_contact = integrate(function, case(model, spec, n_modes, steps))
         numbers = of_displacement(name, displacement, spec.revolutions)[["number", "value", "unit"]]
         numbers.loc[len(numbers)] = [f"{name}.contact_share", in_contact.mean(), "1"]
-        numbers.insert(0, "steps_per_revolution", steps)
-        numbers.insert(0, "modes", n_modes)
-        return numbers
+        return numbers.assign(modes=n_modes, steps_per_revolution=steps)[COLUMNS]
 
     with ThreadPoolExecutor(threads) as pool:
         return pd.concat(pool.map(measure, *zip(*CASES, strict=True)), ignore_index=True)

@@ -18,9 +18,7 @@ from bladerub.study.spectra import order_spectrum
 COLUMNS = ["number", "value", "unit", "resolution"]
 """Columns of the numbers of one calculation; ``resolution`` is that of the grid they are read from."""
 
-ORDERS = (4, 6, 8, 10, 12)
-"""Engine orders whose crossing with the first frequency lies within the speeds."""
-
+ORDERS = (4, 6, 8, 10, 12)  # engine orders whose crossing with the first frequency lies within the speeds
 _N_FREQUENCIES = 6
 _LAST = 5  # revolutions at the end over which a response counts as steady
 
@@ -28,16 +26,12 @@ _LAST = 5  # revolutions at the end over which a response counts as steady
 def of_blade(config: Config, blade: ReducedBlade) -> pd.DataFrame:
     """Frequencies at rest and at the nominal speed, and what contact meets at the tip."""
     nominal, lean = nominal_speed(config, blade), tip_lean(blade)
-    rows: list[tuple[str, float, str]] = []
+    rows = []
     for place, f_omega in (("rest", 0.0), ("nominal", nominal)):
         frequencies = reduced_frequencies(blade, f_omega, _N_FREQUENCIES)
         rows += [(f"f{mode}_{place}", f, "Hz") for mode, f in enumerate(frequencies, 1)]
-    rows += [
-        ("tip_radius", blade.tip_radius, "m"),
-        ("tip_stiffness", tip_stiffness(blade), "N/m"),
-        ("lean_leading_edge", lean[0], "1"),
-        ("lean_trailing_edge", lean[-1], "1"),
-    ]
+    rows += [("tip_radius", blade.tip_radius, "m"), ("tip_stiffness", tip_stiffness(blade), "N/m")]
+    rows += [("lean_leading_edge", lean[0], "1"), ("lean_trailing_edge", lean[-1], "1")]
     return _numbers(rows)
 
 
@@ -66,10 +60,7 @@ def of_displacement(name: str, radial_displacement: np.ndarray, revolutions: int
 
 
 def of_coating(config: Config, coating: CoatingMap, blade: ReducedBlade) -> pd.DataFrame:
-    """Peaks, wear and divergence of a coating over its speeds; no wear of the rigid casing.
-
-    An order without a bounded run near its crossing has no peak.
-    """
+    """Peaks (where a run near a crossing stays bounded), wear and divergence of a coating over its speeds."""
     name, rpm = coating.case.name, 60 * blade.f1_hz
     step, settings = float(np.diff(coating.f_omega).max()), peak_settings(config, coating.case.casing)
     rows = []

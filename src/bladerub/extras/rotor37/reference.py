@@ -13,13 +13,9 @@ from bladerub.io.folders import CONFIG, ROOT
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases
 
-PLAN = ROOT / "config" / "rotor37_reference.yaml"
-"""What is computed, and with which variations."""
-
-REFERENCE = "reference"
-"""The set of the plan whose numbers are quoted."""
-VARIATIONS = ("step", "modes", "mesh", "nodes")
-"""The sets whose differences from them are the uncertainty."""
+PLAN = ROOT / "config" / "rotor37_reference.yaml"  # what is computed, and with which variations
+REFERENCE = "reference"  # the set of the plan whose numbers are quoted
+VARIATIONS = ("step", "modes", "mesh", "nodes")  # the sets whose differences from them are the uncertainty
 
 
 def plan() -> dict[str, Config]:
@@ -33,20 +29,15 @@ def plan() -> dict[str, Config]:
 
 def tables_of(folder: str, config: Config) -> dict[str, pd.DataFrame]:
     """Read the numbers of all sets in `folder` into tables by name, each as of `with_uncertainty`."""
-    cases = coating_cases(config)
-    parts = {
-        "blade": ["blade"],
-        "direct": ["direct"],
-        "interaction": [case.name for case in cases if case.is_rigid],
-        "coatings": [case.name for case in cases if not case.is_rigid],
-    }
+    parts = {"blade": ["blade"], "direct": ["direct"], "interaction": [], "coatings": []}
+    for case in coating_cases(config):
+        parts["interaction" if case.is_rigid else "coatings"].append(case.name)
 
     def joined(of_set: str, files: Sequence[str]) -> pd.DataFrame:
         return pd.concat(tables.read(f"{folder}/{of_set}/numbers/{file}.csv", NUMBERS) for file in files)
 
-    sets = REFERENCE, *VARIATIONS
     return {
-        name: with_uncertainty({of_set: joined(of_set, files) for of_set in sets})
+        name: with_uncertainty({of_set: joined(of_set, files) for of_set in (REFERENCE, *VARIATIONS)})
         for name, files in parts.items()
     }
 
@@ -55,8 +46,7 @@ def with_uncertainty(numbers: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     """Combine the numbers of all sets, by name: tables with the columns of `numbers.COLUMNS`.
 
     The uncertainty is the root of the sum of squares of the changes by each variation and of the resolution.
-    A number that a variation lacks, such as a peak where no run stays bounded, has no uncertainty and is left
-    out.
+    A number that a variation lacks is left out, such as a peak where no run stays bounded.
     """
     table = numbers[REFERENCE].set_index("number")
     for name in VARIATIONS:

@@ -20,8 +20,7 @@ from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import add_to, load, store, write
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, minimum
 
-COUNTERPARTS: dict[Callable, Callable] = {}
-"""The functions below, each by that in whose place it is."""
+COUNTERPARTS: dict[Callable, Callable] = {}  # the functions below, each by that in whose place it is
 
 
 def in_place_of(function: Callable) -> Callable[[Callable], Callable]:

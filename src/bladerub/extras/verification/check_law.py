@@ -50,8 +50,8 @@ def check_law(options: argparse.Namespace) -> int:
     extremes = {end(cases, key=modulus) for modulus in map(attrgetter, "EK") for end in (min, max)}
     coatings = [run_spec(config, case, 0.2).coating for case in cases if case in extremes]
     report = check(law, coatings, options.seed)
-    figures = {"law": law.label, "histories": report.histories}
-    figures["problems"] = [{"what": what, "where": place} for what, place in report.problems.items()]
+    problems = [{"what": what, "where": place} for what, place in report.problems.items()]
+    figures = {"law": law.label, "histories": report.histories, "problems": problems}
     inputs.show(options, figures, _in_words)
     return 1 if report.problems else 0
 

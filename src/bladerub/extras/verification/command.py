@@ -56,8 +56,7 @@ def verify(options: argparse.Namespace) -> None:
         raise BadInput(f"--rows = {options.rows}: not with --peaks, which are of single blades")
 
     from bladerub.extras.study_runs import important_runs, study_runs
-    from bladerub.extras.verification.accuracy import summary
-    from bladerub.extras.verification.verify import draw, verify_runs
+    from bladerub.extras.verification.verify import draw, summary, verify_runs
 
     if options.rows:
         runs = _rows(config, options.rows)
@@ -98,18 +97,12 @@ def _rows(config: "Config", path: Path) -> "list[StudyRun]":
 def _in_words(figures: dict[str, Any]) -> str:
     paper, beyond, n = figures["against_paper_scheme"], figures["beyond"], figures["n"]
     seconds, speedup = figures["seconds"], figures["speedup_at_equal_error"]
-    rows = [
-        ("against a step 4 times finer", *_STATISTICS.values()),
-        *((words, *_shown(figures[key]), f"  {figures['worst'][key]}") for key, words in _MEASURES.items()),
-        ("energy residual", *_shown(figures["energy_residual"])),
-        ("",),
-        ("against the paper's scheme", *_STATISTICS.values()),
-        *((words, *_shown(paper[key])) for key, words in _MEASURES.items()),
-        *(
-            (f"{words}, its own error", *_shown(paper["uncertainty"][key]))
-            for key, words in _MEASURES.items()
-        ),
-    ]
+    rows = [("against a step 4 times finer", *_STATISTICS.values())]
+    rows += [(words, *_shown(figures[key]), f"  {figures['worst'][key]}") for key, words in _MEASURES.items()]
+    rows += [("energy residual", *_shown(figures["energy_residual"])), ("",)]
+    rows.append(("against the paper's scheme", *_STATISTICS.values()))
+    for distributions, words in ((paper, ""), (paper["uncertainty"], ", its own error")):
+        rows += [(f"{name}{words}", *_shown(distributions[key])) for key, name in _MEASURES.items()]
     lines = [
         f"{n} runs, seed {figures['seed']}",
         "",
@@ -124,7 +117,13 @@ def _in_words(figures: dict[str, Any]) -> str:
         "",
         inputs.row(38, "beyond 1 %", "wear", "peak", "revolution") if beyond else "beyond 1 %: none",
     ]
-    return "\n".join([*lines, *map(_beyond_row, beyond)])
+    for entry in beyond:
+        spread = entry["spread"]
+        note = spread and f"neighbours {', '.join(_percent(spread[key]) for key in _MEASURES)}"
+        note = f"sensitive: {note}" if entry["sensitive"] else note or ""
+        errors = (_percent(entry[key]) for key in _MEASURES)
+        lines.append(inputs.row(38, entry["name"], *errors, f"  {note}").rstrip())
+    return "\n".join(lines)
 
 
 def _shown(distribution: dict[str, float | None]) -> list[str]:
@@ -133,10 +132,3 @@ def _shown(distribution: dict[str, float | None]) -> list[str]:
 
 def _percent(value: float | None) -> str:
     return "unbounded" if value is None else f"{100 * value:.3g} %"
-
-
-def _beyond_row(entry: dict[str, Any]) -> str:
-    spread = entry["spread"]
-    note = "" if spread is None else f"neighbours {', '.join(_percent(spread[key]) for key in _MEASURES)}"
-    note = f"sensitive: {note}" if entry["sensitive"] else note
-    return inputs.row(38, entry["name"], *(_percent(entry[key]) for key in _MEASURES), f"  {note}").rstrip()

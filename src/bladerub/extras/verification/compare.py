@@ -14,9 +14,7 @@ from bladerub.io.folders import BENCHMARKS
 if TYPE_CHECKING:
     import pandas as pd
 
-READ = ["number", "value"]
-"""Columns that a compared table must have; ``unit`` and ``uncertainty`` are looked at if they are there."""
-
+READ = ["number", "value"]  # that a compared table must have; it may have ``unit`` and ``uncertainty``
 COLUMNS = ["table", "number", "reference", "value", "allowed", "unit", "agrees"]
 """Columns of the comparison; ``allowed`` is the largest difference that is within the uncertainties."""
 
@@ -46,9 +44,9 @@ def add_to(commands: Any) -> None:
 
 def _command(options: argparse.Namespace) -> int:
     """Compare the tables that the command line names, and print what differs."""
-    reference, package_folder = options.reference, BENCHMARKS / options.reference
-    if package_folder.is_dir() and not reference.is_dir():
-        reference = package_folder
+    reference = options.reference
+    if not reference.is_dir() and (BENCHMARKS / reference).is_dir():
+        reference = BENCHMARKS / reference
     for folder in (options.folder, reference):
         if not folder.is_dir():
             raise BadInput(f"{folder}: there is no such folder")
@@ -66,12 +64,11 @@ def _in_words(figures: dict[str, Any]) -> str:
     missing = f"; {figures['missing']} more of these tables are missing" if figures["missing"] else ""
     lines = [f"{n - len(rows)} of {n} numbers agree with the reference within the uncertainties{missing}"]
     if rows:
-        names = [f"{row['table']}/{row['number']}" for row in rows]
-        width = 2 + max(map(len, names))
+        width = 2 + max(len(f"{row['table']}/{row['number']}") for row in rows)
         lines += ["", inputs.row(width, "outside", "value", "reference", "within", "unit")]
-        for name, row in zip(names, rows, strict=True):
-            cells = (f"{row[key]:.5g}" for key in ("value", "reference", "allowed"))
-            lines.append(inputs.row(width, name, *cells, row["unit"]))
+    for row in rows:
+        cells = (f"{row[key]:.5g}" for key in ("value", "reference", "allowed"))
+        lines.append(inputs.row(width, f"{row['table']}/{row['number']}", *cells, row["unit"]))
     return "\n".join(lines)
 
 
@@ -99,8 +96,10 @@ def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
                 content["unit"] = content["unit"].astype(str)
         compared = table.reindex(columns=[*READ, "unit", "uncertainty"])
         both = reference_table.merge(compared, how="left", on="number", suffixes=("_reference", ""))
-        if "unit" in table:
-            _check_units(folder / path.name, both)
+        other = both[both.value.notna() & (both.unit != both.unit_reference)]
+        for row in other.itertuples() if "unit" in table else ():
+            wrong = f"{row.number} is in {row.unit}; must be in {row.unit_reference}"
+            raise ValueError(f"{folder / path.name}: {wrong}")
         joint = np.hypot(both.uncertainty_reference, both.uncertainty.astype(float).fillna(0.0))
         both["allowed"] = COVERAGE * joint + _DIGITS * both.value_reference.abs()
         both["agrees"] = (both.value - both.value_reference).abs() <= both.allowed
@@ -120,10 +119,3 @@ def _check_numbers(path: Path, table: "pd.DataFrame") -> None:
             raise ValueError(f"{path}: {column} = {cell}: must be a number")
     for number in table.number[table.number.duplicated()]:
         raise ValueError(f"{path}: number = {number}: is there twice")
-
-
-def _check_units(path: Path, both: "pd.DataFrame") -> None:
-    other = both[both.value.notna() & (both.unit != both.unit_reference)]
-    if len(other):
-        first = other.iloc[0]
-        raise ValueError(f"{path}: {first.number} is in {first.unit}; must be in {first.unit_reference}")

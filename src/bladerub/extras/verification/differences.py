@@ -21,16 +21,13 @@ class Differences(NamedTuple):
     revolution_peak: float  # largest of a revolution's peak, over the largest peak of all revolutions
 
 
-UNBOUNDED = Differences(math.inf, math.inf, math.inf)
-"""The differences where one of two outcomes is unbounded."""
+UNBOUNDED = Differences(math.inf, math.inf, math.inf)  # where one of two outcomes is unbounded
 
 
 def spectrum(run: RunResult | Motion, analysis: Analysis) -> tuple[np.ndarray, np.ndarray]:
     """Return engine orders and amplitudes (m) of a run, as the study has them."""
-    n_revolutions = run.revolution_peak.size
-    return order_spectrum(
-        run.radial_displacement, n_revolutions, analysis.spectrum_revolutions, analysis.max_order
-    )
+    lengths = run.revolution_peak.size, analysis.spectrum_revolutions
+    return order_spectrum(run.radial_displacement, *lengths, analysis.max_order)
 
 
 def amplitude_on(order: float, run: RunResult | Motion, analysis: Analysis) -> float:
@@ -43,11 +40,10 @@ def amplitude_on(order: float, run: RunResult | Motion, analysis: Analysis) -> f
 def differences(
     outcome: Sequence[RunResult], reference: Sequence[RunResult], analysis: Analysis
 ) -> Differences:
-    """Compare two outcomes of the same run, of each blade of a row; ``config.analysis`` has the spectrum.
+    """Compare two outcomes of the same run, of each blade of a row.
 
-    A difference is 0 where both are zero, infinite where only the reference is; all are infinite if either
-    run is unbounded. The largest of a peak's differences over the blades is related to the largest of their
-    peaks.
+    A difference is 0 where both are zero, infinite where only the reference is, or a run is unbounded. The
+    largest of a peak's differences over the blades is related to the largest of their peaks.
     """
     if any(result.status == "unbounded" for result in (*outcome, *reference)):
         return UNBOUNDED

@@ -25,12 +25,9 @@ from bladerub.contact.spec import Coating, ElementLaw
 from bladerub.extras.user_code import bounded
 from bladerub.io.errors import BadInput
 
-TIME_STEPS = (1e-7, 1e-6, 1e-5)
-"""Of the histories, s: those of runs, and ten times longer and shorter."""
-LONGEST_CHECK = 120.0
-"""Time after which a law is taken for endless, s; that of the package takes a second or two."""
-HISTORIES = 40
-"""For each coating and time step."""
+TIME_STEPS = (1e-7, 1e-6, 1e-5)  # of the histories, s: those of runs, and ten times longer and shorter
+LONGEST_CHECK = 120.0  # s after which a law is taken for endless; that of the package takes a second or two
+HISTORIES = 40  # for each coating and time step
 ENERGY = 1e-3
 """Part of the work exchanged that may be missing, beside what is unsure in steps within which contact or flow
 begins or ends: the work there is between that of the force before and that of the force after."""
@@ -60,11 +57,9 @@ class LawReport:
 
 
 def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> LawReport:
-    """Press elements of `coatings` by a law along random histories.
+    """Press elements of `coatings`, which have a layer, by a law along random histories, of the same `seed`.
 
-    All coatings have a layer; their own law does not count. Elements that wear off begin unworn. The
-    histories are the same for the same `seed`. A law that is right has no problems; what it raises is a
-    problem, not an error.
+    Elements that wear off begin unworn. What a law raises is a problem, not an error.
     """
     rng, log = np.random.default_rng(seed), LawReport()
     try:
@@ -120,19 +115,16 @@ def _follow(
         log.unless(increment >= 0, "wear is negative", **values)
         log.unless(force >= 0, "an element pulls", **values)
         log.unless((depth > 0) | (force == 0) & (increment == 0), "a force without contact", **values)
-        log.unless(
-            loss >= -_ROUNDING * np.abs(force * coating.thickness), "energy is dissipated below 0", **values
-        )
+        least_loss = -_ROUNDING * np.abs(force * coating.thickness)
+        log.unless(loss >= least_loss, "energy is dissipated below 0", **values)
         if step % _LOOK_EVERY == 0:
             _look(law, element, depth, wear, force, increment, rng, log)
-        step_work = 0.5 * (force + force_before) * (penetration - penetration_before)
+        advance = penetration - penetration_before
+        step_work = 0.5 * (force + force_before) * advance
         work, exchanged = work + step_work, exchanged + np.abs(step_work)
         bends = ((force > 0) != (force_before > 0)) | ((increment > 0) != (increment_before > 0))
-        unsure = unsure + np.where(
-            bends, 0.5 * np.abs((force - force_before) * (penetration - penetration_before)), 0.0
-        )
-        dissipated = dissipated + loss
-        wear = wear + increment
+        unsure = unsure + np.where(bends, 0.5 * np.abs((force - force_before) * advance), 0.0)
+        dissipated, wear = dissipated + loss, wear + increment
         if (step + 1) % _STEPS == 0:
             missing, allowed = work - stored - dissipated, ENERGY * exchanged + unsure
             energies = {"work": work, "stored": stored, "dissipated": dissipated}
@@ -162,20 +154,11 @@ def _look(law, element, depth, wear, force, increment, rng, log: LawReport) -> N
     by = scale * 10 ** rng.uniform(-4, 0, HISTORIES)
     deeper_force, deeper_increment = law.return_mapping(element, depth + by, wear)
     values = {"depth": depth, "worn": wear, "force": force}
-    log.unless(
-        (deeper_force >= force - small) & (deeper_increment >= increment - _ROUNDING * scale),
-        "force or wear falls as the depth grows",
-        **values,
-        deeper_by=by,
-        to=deeper_force,
-    )
+    rises = (deeper_force >= force - small) & (deeper_increment >= increment - _ROUNDING * scale)
+    log.unless(rises, "force or wear falls as the depth grows", **values, deeper_by=by, to=deeper_force)
     elastic_force = law.elastic_force(element, depth - increment, wear + increment)
-    log.unless(
-        np.abs(elastic_force - force) <= small,
-        "elastic_force after wear is not the force",
-        **values,
-        elastic=elastic_force,
-    )
+    is_force = np.abs(elastic_force - force) <= small
+    log.unless(is_force, "elastic_force after wear is not the force", **values, elastic=elastic_force)
     slope, linear = law.tangent(element, depth, wear)
     finite = np.isfinite(slope) & np.isfinite(linear)
     log.unless(finite, "it gives what is no number", **values, stiffness=slope, constant_over=linear)

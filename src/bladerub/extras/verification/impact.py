@@ -23,8 +23,7 @@ from bladerub.contact.spec import RunSpec
 
 _ANGLES = 72_000  # at which the shape of the casing is taken; linear between
 
-TOLERANCE = 1e-10
-"""Change of an impulse, over the largest, at which the impulses of a step have converged."""
+TOLERANCE = 1e-10  # change of an impulse, over the largest, at which the impulses of a step have converged
 MAX_SWEEPS = 1000
 
 

@@ -19,10 +19,7 @@ class Faults(NamedTuple):
 
 
 def examine(results: str | Path) -> Faults:
-    """Read every file below `results` that carries a checksum, or that a manifest lists, to its end.
-
-    These are all HDF5 files, the tables, and the manifests.
-    """
+    """Read all HDF5 files, tables and manifests below `results`, and what these list, to their end."""
     faults = Faults([], [], [])
 
     def refused(error: OSError) -> None:

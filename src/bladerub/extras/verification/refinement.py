@@ -2,10 +2,8 @@
 
 A bar is an abradable element. With n times as many, the profile keeps its shape in metres and the coating
 its stiffness per area; the time step stays. What remains is how the bars resolve the edge of the profile
-(`bladerub.contact.tip.coverage`) and the wear under it.
-
-Blades with more nodes have the same mesh, which is finer along the chord than the study's, so that the nodes
-find even places. More nodes give the reduced model more static modes of the tip as well.
+(`bladerub.contact.tip.coverage`) and the wear under it. More nodes, with more static modes of the tip, find
+even places on a mesh that is finer along the chord.
 """
 
 import math
@@ -30,12 +28,8 @@ from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, element_law, run_spec, speeds
 from bladerub.study.variants import filled, with_variant
 
-REFINEMENTS = (1, 2, 4)
-"""How many times finer the bars are; 1 are the study's."""
-
-NODES = (8, 16, 24)
-"""Numbers of interface nodes; 8 are the study's."""
-
+REFINEMENTS = (1, 2, 4)  # how many times finer the bars are; 1 are the study's
+NODES = (8, 16, 24)  # numbers of interface nodes; 8 are the study's
 CHORDWISE = 24  # elements; 49 nodes along the camber line
 
 CASES = [
@@ -43,8 +37,6 @@ CASES = [
     for layer in [(0.11, 0.5, 0.0), (1.1, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 0.5, 0.15), (20.0, 10.0, 0.0)]
 ]
 """Coatings of the paper whose peaks are compared: those of Figs. 8, 9, 15 and 16, and the stiffest."""
-
-_COMPARED = ("f_peak", "amplitude", "amplitude_change", "volume_change", "wear_difference", "status")
 
 
 class Model(NamedTuple):
@@ -63,10 +55,7 @@ def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
 
 
 def finer_bars(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
-    """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with finer bars.
-
-    A row for each peak and number of bars: see `compared`.
-    """
+    """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with finer bars."""
     models = {
         config.contact.elements * times: Model(
             blade, partial(_under_bars, times=times), partial(with_finer_bars, blade, times=times)
@@ -79,8 +68,7 @@ def finer_bars(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.D
 def more_nodes(config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
     """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with more interface nodes.
 
-    A row for each peak and number of nodes: see `compared`. ``cpu_s`` are the seconds of the run at the
-    study's speed of the peak.
+    As `compared`; ``cpu_s`` are the seconds of the run at the study's speed of the peak.
     """
     blades = {n: blade_with(config, n) for n in NODES}
     models = {n: Model(blade, partial(_along_chord, blade)) for n, blade in blades.items()}
@@ -100,21 +88,18 @@ def compared(column: str, models: Mapping[int, Model], config: Config, peaks: pd
     """
     rows = []
     for case, peak in listed(peaks):
+        *coating, _, variant = astuple(case)
         for number, model in models.items():
             run, speed, amplitude = _climb(model, config, case, peak)
             wear = model.wear(run)
             if number == next(iter(models)):
                 own_wear, own_amplitude = wear, amplitude
-            changes = (
-                amplitude / own_amplitude - 1,
-                wear.sum() / own_wear.sum() - 1,
-                np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear),
-            )
-            *coating, _, variant = astuple(case)
-            what = (*coating, peak.order, number)
-            rows.append((*what, speed, amplitude, *changes, run.status, variant))
-    columns = ["casing", "E", "K", "theta", "order", column, *_COMPARED, "variant"]
-    return pd.DataFrame(rows, columns=columns)
+            change, volume_change = amplitude / own_amplitude - 1, wear.sum() / own_wear.sum() - 1
+            difference = np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear)
+            sizes = speed, amplitude, change, volume_change, difference
+            rows.append((*coating, peak.order, number, *sizes, run.status, variant))
+    columns = ["casing", "E", "K", "theta", "order", column, "f_peak", "amplitude", "amplitude_change"]
+    return pd.DataFrame(rows, columns=[*columns, "volume_change", "wear_difference", "status", "variant"])
 
 
 def _climb(model: Model, config: Config, case: CoatingCase, peak: Any) -> tuple[RunResult, float, float]:

@@ -1,14 +1,13 @@
 """What the vibration on the rigid casing converges to, whatever the modes, the step and the impact.
 
-An impact excites all modes of the blade at once. So a run on the rigid casing may depend on the modes that
-are kept, on the time step and on what is assumed about impact, for which a discrete model needs a law of its
-own. Here some runs of the study are repeated with each of them changed.
+An impact excites all modes of the blade at once. So a run may depend on the modes that are kept, on the time
+step and on the law of impact that a discrete model needs. Runs are repeated with each of them changed.
 """
 
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -27,10 +26,8 @@ from bladerub.settings.study import Config
 from bladerub.study.grid import run_spec, speeds
 from bladerub.study.paper import RIGID
 
-PLAIN_SPEED = (0.25, 4)
-"""A speed away from the peaks, and the engine order looked at there."""
-NEIGHBOURS = 2
-"""Speeds of the study to either side of a peak that are looked at as well."""
+PLAIN_SPEED = (0.25, 4)  # a speed away from the peaks, and the engine order looked at there
+NEIGHBOURS = 2  # speeds of the study to either side of a peak that are looked at as well
 RESTITUTIONS = {f"moreau_jean_{e:g}": e for e in (0.0, 0.5, 0.9)}
 STIFFNESSES = {f"penalty_1e{power}": 10.0**power for power in (8, 9, 10)}  # N/m
 
@@ -44,12 +41,7 @@ class Alternative(NamedTuple):
 
 
 OWN = Alternative("exponential", 1)
-NEARBY = (
-    OWN,
-    Alternative("moreau_jean_0", 8),
-    Alternative("massless", 8, 20),
-    Alternative("massless", 8, 40),
-)
+NEARBY = (OWN, Alternative("moreau_jean_0", 8), *(Alternative("massless", 8, modes) for modes in (20, 40)))
 ALTERNATIVES = (
     *NEARBY,
     *(Alternative("exponential", finer) for finer in (2, 4, 8)),
@@ -61,6 +53,11 @@ ALTERNATIVES = (
 )
 """What is tried at `PLAIN_SPEED` and at the peaks; `NEARBY` at the speeds next to them."""
 
+COLUMNS = [
+    *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude", "amplitude_change"),
+    *("largest_revolution", "median_revolution", "largest_displacement"),
+]
+
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
@@ -68,7 +65,7 @@ def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFr
 
     `peaks` is a table ``peaks.csv``, of which the peaks of the rigid casing are looked at.
     """
-    rows: list[dict[str, Any]] = []
+    rows = []
     last = slice(-config.analysis.spectrum_revolutions, None)  # the revolutions of the study's spectra
     for f_omega, order, alternatives in _listed(config, peaks):
         spec, modes, study_amplitude = run_spec(config, RIGID, f_omega), modes_at(blade, f_omega), math.nan
@@ -78,26 +75,13 @@ def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFr
             outcome, steps = _simulate(blade, spec, modes, alternative)
             amplitude = amplitude_on(order, outcome, config.analysis)
             study_amplitude = amplitude if alternative == OWN else study_amplitude
-            complete = alternative.treatment == "massless" or (
-                alternative.modes is None and alternative.treatment not in STIFFNESSES
-            )
+            treatment, n_modes = alternative.treatment, alternative.modes or modes.omega.size
+            complete = treatment == "massless" or not (alternative.modes or treatment in STIFFNESSES)
             revolutions = outcome.revolution_amplitude[last]
-            rows.append(
-                {
-                    "f_omega": f_omega,
-                    "treatment": alternative.treatment,
-                    "modes": alternative.modes or modes.omega.size,
-                    "steps": steps,
-                    "order": order,
-                    "complete": complete,
-                    "amplitude": amplitude,
-                    "amplitude_change": amplitude / study_amplitude - 1,
-                    "largest_revolution": revolutions.max(),
-                    "median_revolution": np.median(revolutions),
-                    "largest_displacement": outcome.revolution_peak[last].max(),
-                }
-            )
-    return pd.DataFrame(rows)
+            sizes = amplitude, amplitude / study_amplitude - 1, revolutions.max(), np.median(revolutions)
+            displacement = outcome.revolution_peak[last].max()
+            rows.append((f_omega, treatment, n_modes, steps, order, complete, *sizes, displacement))
+    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def _listed(config: Config, peaks: pd.DataFrame) -> Iterator[tuple[float, float, tuple[Alternative, ...]]]:
@@ -127,6 +111,6 @@ def _simulate(
     elif how.treatment in STIFFNESSES:
         rule = impact.penalty(modes, damping, step, STIFFNESSES[how.treatment])
     else:
-        first_modes = impact.first(modes, how.modes)
-        rule = impact.moreau_jean(first_modes, damping, step, RESTITUTIONS[how.treatment])
+        kept = impact.first(modes, how.modes)
+        rule = impact.moreau_jean(kept, damping, step, RESTITUTIONS[how.treatment])
     return impact.simulate(rule, blade, spec), steps

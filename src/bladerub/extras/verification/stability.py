@@ -25,13 +25,13 @@ def problems(config: Config) -> Iterator[str]:
     try:
         if not is_built(config, model):
             return
-        blade, n_elements = read_reduced_blade(model), config.contact.elements
+        blade = read_reduced_blade(model)
     except OSError:  # damaged
         return
     scale = config.contact.plugged("scale", grid.UNSCALED).time
     longest = (solver.max_time_step or math.inf) * scale
     for f_omega in grid.speeds(config):
-        passage = 1 / (f_omega * blade.f1_hz * n_elements)
+        passage = 1 / (f_omega * blade.f1_hz * config.contact.elements)
         step = passage / own_steps(passage, solver.steps_per_element or 0, longest)
         stable = 2 / mode_shapes_at(blade, f_omega)[0][-1]
         if step >= stable:

@@ -14,12 +14,13 @@
 
 import math
 import time
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, astuple, dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
@@ -31,19 +32,27 @@ from bladerub.contact.steps import STABLE_PART, with_steps
 from bladerub.contact.strips import element_passage
 from bladerub.extras.study_runs import StudyRun
 from bladerub.extras.verification.differences import Differences, differences, largest
+from bladerub.io.plain import plain
 from bladerub.settings.study import Config
 from bladerub.study.grid import element_law, run_spec
 from bladerub.study.solver import each_done
+from bladerub.study.variants import with_variant
 
-TOLERANCE = 0.01
-"""Differences beyond this are listed by run."""
-
-REFINEMENT = 4
-"""How many times finer the finer step is: it leaves 1/16 of an error of second order, 1/4 of one of first."""
-
+TOLERANCE = 0.01  # differences beyond this are listed by run
+REFINEMENT = 4  # the finer step leaves 1/16 of an error of second order, 1/4 of one of first
 NEIGHBOURS = (-1e-7, -5e-8, 5e-8, 1e-7)
 """Initial radial displacements of node 1 in neighbouring starts, m: far below the tolerance to which a blade
 tip is made (some 0.01 mm) and far above rounding."""
+
+DRAWS = {"all": [(1, 40), (2, 40), (3, 40)], "important": [(1, 100)]}
+"""Seeds of the draws and numbers of runs, from all of the study and from those that claims rest on."""
+COLUMNS = [
+    *("drawn_from", "seed", "casing", "E", "K", "theta", "law", "f_omega", "status"),
+    *(f"error_{measure}" for measure in Differences._fields),
+    *(f"start_{measure}" for measure in Differences._fields),
+    *("sensitive", "energy_residual", "speedup_at_equal_error", "cpu_s"),
+]
+"""Columns of ``accuracy.csv``, described in ``columns.csv``."""
 
 
 class Solved(NamedTuple):
@@ -80,10 +89,7 @@ class VerifiedRun:
 
 
 def explain(error: Differences, spread: Differences) -> bool:
-    """Whether neighbouring starts, which change a run by `spread`, explain its errors beyond `TOLERANCE`.
-
-    They do if they change the run by at least half of each.
-    """
+    """Whether neighbouring starts change a run by at least half of each `error` beyond `TOLERANCE`."""
     pairs = zip(error, spread, strict=True)
     return all(change >= difference / 2 for difference, change in pairs if difference > TOLERANCE)
 
@@ -109,22 +115,20 @@ def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRu
 
     Raises `ValueError` if the blade has no such speed, or the step is too long for the scheme.
     """
-    spec, analysis = run_spec(config, run.case, run.f_omega), config.analysis
+    spec = run_spec(config, run.case, run.f_omega)
     passage = element_passage(blade, spec)
     solve = partial(_solve, blade, run.row)
     outcome = solve(spec)
-    steps = round(passage / outcome.blades[0].time_step)
-    finer = solve(with_steps(spec, REFINEMENT * steps))
+    finer = solve(with_steps(spec, REFINEMENT * round(passage / outcome.blades[0].time_step)))
     paper_spec = replace(spec, scheme="central_differences")
     longest = STABLE_PART * 2 / modes_at(blade, spec.f_omega).omega[-1]
     paper_steps = math.ceil(passage / longest)
     paper, paper_finer = (solve(with_steps(paper_spec, n * paper_steps)) for n in (1, REFINEMENT))
 
     def compare(one: Solved, other: Solved) -> Differences:
-        return differences(one.blades, other.blades, analysis)
+        return differences(one.blades, other.blades, config.analysis)
 
-    error = compare(outcome, finer)
-    spread = None
+    error, spread = compare(outcome, finer), None
     if max(error) > TOLERANCE and outcome.blades[0].status == "completed":
         starts = (replace(spec, initial_displacement=start) for start in NEIGHBOURS)
         spread = largest(compare(solve(start), outcome) for start in starts)
@@ -155,11 +159,10 @@ def speedup_at_equal_error(
 ) -> float | None:
     """Cost of the paper's scheme at the error of the study's run, over the cost of the study's run.
 
-    All errors are differences from the same reference, the study's scheme with finer steps. The paper's
-    scheme is of first order: its error is taken as proportional to the step, through the one at the step
-    `REFINEMENT` times finer. Its step of equal error is at most its coarser step, as stability allows no
-    longer one. Its cost is proportional to 1 / step. None if an error is zero or infinite, or that of the
-    paper's scheme does not decrease with its step.
+    All errors are differences from the study's scheme with finer steps. That of the paper's scheme is taken
+    as proportional to the step, through the one at the step `REFINEMENT` times finer; its step of equal error
+    is at most its coarser step, as stability allows no longer one. Its cost is proportional to 1 / step. None
+    if an error is zero or infinite, or that of the paper's scheme does not decrease with its step.
     """
     errors = (error, paper_error, paper_finer_error)
     if min(errors) == 0 or max(errors) == math.inf or paper_finer_error >= paper_error:
@@ -179,3 +182,71 @@ def _solve(blade: ReducedBlade, row: Any, spec: RunSpec) -> Solved:
     together = simulate_row(blade, spec, row)
     blades = tuple(replace(blade_result, status=together.status) for blade_result in together.blades)
     return Solved(blades, together.residual, time.thread_time() - start)
+
+
+def table(
+    blade: ReducedBlade,
+    config: Config,
+    candidates: Mapping[str, Sequence[StudyRun]],
+    report: Callable[[object], None] = lambda line: None,
+) -> pd.DataFrame:
+    """Verify the runs of `DRAWS`; a row each, with `COLUMNS`.
+
+    `candidates` are the runs to draw from by the names there; of a study that has fewer all are taken.
+    `report` is called with a line for a log after each run.
+    """
+    rows = []
+    for name, draws in DRAWS.items():
+        for seed, sample in draws:
+            runs = draw(candidates[name], min(sample, len(candidates[name])), seed)
+            for number, verified in enumerate(verify_runs(blade, config, runs), 1):
+                *coating, variant = astuple(verified.run.case)
+                row = [name, seed, *coating, verified.run.f_omega, verified.status, *verified.error]
+                row += verified.spread or (None,) * len(Differences._fields)
+                row += [verified.is_sensitive, verified.energy_residual, verified.speedup]
+                rows.append([*row, verified.seconds["study"], variant])
+                report(f"{name}, seed {seed}: {number} of {len(runs)}, {verified.run.name}")
+    return with_variant(pd.DataFrame(rows, columns=[*COLUMNS, "variant"]), COLUMNS)
+
+
+def summary(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
+    """Summarise the errors of one run or more, in plain values that JSON can hold; infinite ones are None.
+
+    The keys are those that docs/how-to/how_sure.md describes; ``speedup_at_equal_error`` is the median over
+    the runs that have one and are not sensitive, and of the runs ``beyond`` the worst comes first.
+    """
+    errors = pd.DataFrame([run.error for run in verified], index=[run.run.name for run in verified])
+    speedups = [run.speedup for run in verified if run.speedup is not None and not run.is_sensitive]
+    beyond = sorted((run for run in verified if run.is_beyond), key=lambda run: -max(run.error))
+    against_paper, uncertainty = (
+        pd.DataFrame([getattr(run, name) for run in verified])
+        for name in ("against_paper", "paper_uncertainty")
+    )
+    figures = {
+        "n": len(verified),
+        "within_1_percent": (errors[["wear_l2", "peak"]].max(axis=1) <= TOLERANCE).mean(),
+        **_distributions(errors),
+        "energy_residual": _distribution([run.energy_residual for run in verified]),
+        "worst": errors.idxmax().to_dict(),
+        "against_paper_scheme": _distributions(against_paper) | {"uncertainty": _distributions(uncertainty)},
+        "speedup_at_equal_error": np.median(speedups) if speedups else None,
+        "left_out": len(verified) - len(speedups),
+        "seconds": pd.DataFrame([run.seconds for run in verified]).mean().to_dict(),
+        "beyond": [
+            {"name": run.run.name, **asdict(run.run.case), "f_omega": run.run.f_omega, "status": run.status}
+            | run.error._asdict()
+            | {"spread": run.spread and run.spread._asdict(), "sensitive": run.is_sensitive}
+            for run in beyond
+        ],
+    }
+    return plain(figures)
+
+
+def _distribution(values: Sequence[float]) -> dict[str, float]:
+    """Median, smallest value that at least 95 % of the values do not exceed, and maximum."""
+    p95 = np.quantile(values, 0.95, method="inverted_cdf")
+    return {"median": np.median(values), "p95": p95, "max": max(values)}
+
+
+def _distributions(several: pd.DataFrame) -> dict[str, Any]:
+    return {measure: _distribution(values) for measure, values in several.items()}

@@ -10,7 +10,7 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import PLASTIC
 from bladerub.extras.benchmark import estimate, gpu, measure, plain
-from bladerub.extras.benchmark.record import MACHINE, replace, rows
+from bladerub.extras.benchmark.record import GPU_COLUMNS, MACHINE, gpu_row, replace, rows
 from bladerub.extras.gpu import emulation
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.study_runs import study_runs
@@ -120,8 +120,8 @@ def test_the_study_on_an_emulated_gpu(blade, tmp_path):
     assert figures["peak_error_median"] < 1e-6
     assert figures["peak_error_largest"] < 1e-2  # of a run whose rounding grows
     assert min(figures["kernel_s"], figures["gpu_s"]) > 0
-    replace(tmp_path / "gpu.csv", gpu.row("emulated", figures), ["gpu"], {})
-    assert tables.read(tmp_path / "gpu.csv", gpu.COLUMNS).gpu.item() == "emulated"
+    replace(tmp_path / "gpu.csv", gpu_row({"gpu": "emulated", **figures}), ["gpu"], {})
+    assert tables.read(tmp_path / "gpu.csv", GPU_COLUMNS).gpu.item() == "emulated"
 
 
 @cache

@@ -8,12 +8,11 @@ import pytest
 from bladerub.contact.illustration import LoadingCycle
 from bladerub.contact.spec import Coating
 from bladerub.extras.chart import stiffening
+from bladerub.extras.laws import cycles
 from bladerub.extras.passages.sweeps import SpeedSweep
-from bladerub.extras.plots.chart_moduli import QUANTITIES, chart_map
-from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
-from bladerub.extras.plots.law_cycles import law_cycles
+from bladerub.extras.plots.chart import QUANTITIES, chart_explanation, chart_map, chart_stiffening
 from bladerub.extras.plots.passages import sweeps
-from bladerub.extras.plots.steps import steps
+from bladerub.extras.verification import steps
 from bladerub.study.grid import CoatingCase
 
 
@@ -63,7 +62,7 @@ def test_each_law_has_a_panel_with_its_cycles_in_megapascals(draws):
         return LoadingCycle(coating, np.array([0.0, 0.01, 0.02]), np.asarray(stress), np.zeros(3))
 
     two = {"slow": cycle([0, 0, 0.01]), "fast": cycle([0, 0.01, 0.02])}
-    slow, fast = draws(law_cycles({"one": {"soft": cycle([0, 0.01, 0.01])}, "two": two})).axes[1].lines
+    slow, fast = draws(cycles.draw({"one": {"soft": cycle([0, 0.01, 0.01])}, "two": two})).axes[1].lines
     np.testing.assert_allclose(fast.get_xydata(), [[0, 0], [1, 6], [2, 12]])
     np.testing.assert_allclose(slow.get_ydata(), [0, 0, 6])
 
@@ -95,7 +94,7 @@ def test_errors_stand_over_steps_and_chaotic_runs_are_left_out():
     runs = pd.DataFrame({"E": [2.0, 2.0, 2.0, np.inf], "error": [1e-3, 3e-3, 0.5, 1e-4]})
     runs["sensitive"] = runs.error > 0.1
     finenesses = pd.DataFrame({"tolerance": tolerances, "steps_per_revolution": counts})
-    panels = steps(finenesses.merge(runs, how="cross")).axes
+    panels = steps.draw_steps(finenesses.merge(runs, how="cross")).axes
     for panel, error in zip(panels, (2e-3, 2.8e-3), strict=True):  # median, and what most do not exceed
         of_E2 = next(line for line in panel.get_lines() if line.get_label() == "E = 2")
         np.testing.assert_allclose(of_E2.get_xdata(), [4e3, 2e3])

@@ -11,7 +11,7 @@ from bladerub.contact.spec import PLASTIC
 from bladerub.contact.strips import strip_width
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
-from bladerub.extras.plots.rigs import rigs as draw
+from bladerub.extras.plots.studies import rigs as draw
 from bladerub.extras.rig import blade as elastic
 from bladerub.extras.rig.passes import compared, simulate_passes, table
 from bladerub.extras.rig.spec import MEASURABLE, PLAN, Rig, read_rigs

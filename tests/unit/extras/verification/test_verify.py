@@ -9,11 +9,10 @@ import pytest
 from study_fixtures import changed
 
 from bladerub.extras import study_runs
-from bladerub.extras.verification import accuracy, verify
-from bladerub.extras.verification.accuracy import summary
+from bladerub.extras.verification import verify
 from bladerub.extras.verification.compare import compare as compare_tables
 from bladerub.extras.verification.differences import UNBOUNDED, Differences, differences
-from bladerub.extras.verification.verify import NEIGHBOURS, StudyRun, VerifiedRun
+from bladerub.extras.verification.verify import NEIGHBOURS, StudyRun, VerifiedRun, summary
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.maps import write_map
 
@@ -179,9 +178,9 @@ def test_a_row_holds_errors_what_starts_change_and_cost(monkeypatch):
 
     case = CoatingCase("2nd", 2.0, 0.5, 0.15)
     runs = [StudyRun(case, 0.1 + 0.01 * number) for number in range(12)]
-    monkeypatch.setattr(accuracy, "verify_runs", lambda blade, config, runs: map(drawn, runs))
+    monkeypatch.setattr(verify, "verify_runs", lambda blade, config, runs: map(drawn, runs))
     lines = []
-    table = accuracy.table(None, {}, {"all": runs, "important": runs[-2:]}, lines.append)
+    table = verify.table(None, {}, {"all": runs, "important": runs[-2:]}, lines.append)
     assert len(lines) == len(table) == 3 * 12 + 2  # drawn thrice
     row = table[table.f_omega > 0.2].iloc[0]
     assert (row.E, row.K, row.theta, row.law, row.status) == (2.0, 0.5, 0.15, "theta", "completed")
