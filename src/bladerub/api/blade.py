@@ -25,9 +25,9 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.config.quantities import checked_number
 from bladerub.io import tables
-from bladerub.io.equality import equal
 from bladerub.io.errors import package
 from bladerub.io.provenance import provenance
+from bladerub.io.values import equal
 from bladerub.settings.fields import Speed
 from bladerub.settings.study import Config
 from bladerub.settings.units import speed_in_words

@@ -13,10 +13,10 @@ from bladerub.api.arguments import InputError, over
 from bladerub.api.display import Shown
 from bladerub.api.study import settings_of
 from bladerub.contact.result import ENERGIES, Energy
-from bladerub.io.equality import equal
 from bladerub.io.errors import package
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import PREFIX, provenance
+from bladerub.io.values import equal
 from bladerub.plots import titles
 from bladerub.settings.analysis import Divergence
 from bladerub.settings.study import Config

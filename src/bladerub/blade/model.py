@@ -20,10 +20,9 @@ def n_interface(config: BladeSpec) -> int:
     return config.reduction.interface_nodes or N_INTERFACE
 
 
-def interface_node(n_nodes: int) -> Variable:
+def interface_node(n_nodes: int, dim: str = "node") -> Variable:
     """Return the numbers of `n_nodes` interface nodes, as files have them."""
-    number = np.arange(1, n_nodes + 1)
-    return Variable(("node",), number, "1", "interface node, counted from 1 at the leading edge")
+    return hdf5.numbers(dim, n_nodes, "interface node, counted from 1 at the leading edge")
 
 
 AXIS = Variable(("axis",), np.array(["x", "y", "z"]), "1", "x along the axis of rotation, z along the blade")

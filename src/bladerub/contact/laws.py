@@ -19,7 +19,7 @@ import numpy as np
 
 from bladerub import plugins
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec
-from bladerub.io.sources import digest_behind
+from bladerub.io.sources import digest_behind, digest_of
 from bladerub.numerics.lanes import USUAL
 from bladerub.settings.fields import Section
 
@@ -32,6 +32,11 @@ _ALONE = {
     "law": f"name: this package has the law {PLASTIC.name} alone",
     "loop": f"this package has tips of up to {USUAL} nodes alone, which do not turn, and the paper's law",
 }
+
+
+def solver_digest() -> str:
+    """Digest the source of what computes a run: it is valid for this alone, and so is the machine code."""
+    return digest_of("contact", "numerics", "blade/model.py")
 
 
 def element_law(law: Section | None) -> ElementLaw:

@@ -76,7 +76,7 @@ class Solver:
         return one_run.simulate_longer(*run)
 
     def determinants(self) -> dict[str, str]:
-        """Name and digest of what determines a run besides `bladerub.contact.sources`, if anything."""
+        """Name and digest of what determines a run besides `solver_digest`, if anything."""
         return {}
 
     def check(self) -> None:

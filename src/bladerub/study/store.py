@@ -1,7 +1,7 @@
 """Runs on disk: one HDF5 file a run, or several runs in one, with a prefix before the names of each."""
 
 from collections.abc import Mapping, Set
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -136,8 +136,7 @@ def joined(runs: Mapping[str, StoredRun]) -> tuple[dict[str, Variable], dict[str
     """
     variables, attributes = {}, {}
     for prefix, run in runs.items():
-        numbers = interface_node(len(run.data["wear"]))
-        variables[f"{prefix}node"] = replace(numbers, dims=(f"{prefix}node",))
+        variables[f"{prefix}node"] = interface_node(len(run.data["wear"]), f"{prefix}node")
         for name, values in run.data.items():
             dims, unit, meaning = datasets()[name]
             variables[prefix + name] = Variable(tuple(prefix + dim for dim in dims), values, unit, meaning)

@@ -1,6 +1,6 @@
 import pytest
 
-from bladerub.contact.sources import solver_digest
+from bladerub.contact.laws import solver_digest
 from bladerub.extras.chart import column
 from bladerub.extras.gpu import solver
 from bladerub.io import sources

@@ -16,9 +16,9 @@ from bladerub.extras.bounds import whole_number
 from bladerub.extras.ensembles.bands import band
 from bladerub.extras.ensembles.ensemble import starts
 from bladerub.extras.many_runs import solve_all
-from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.provenance import PREFIX, config_digest, provenance
+from bladerub.io.values import Comparable
 from bladerub.study.grid import speed_name
 from bladerub.study.plan import planned_run
 from bladerub.study.solver import row_of

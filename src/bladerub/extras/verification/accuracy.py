@@ -10,7 +10,7 @@ import pandas as pd
 from bladerub.blade.model import ReducedBlade
 from bladerub.extras.verification.differences import Differences
 from bladerub.extras.verification.verify import TOLERANCE, StudyRun, VerifiedRun, draw, verify_runs
-from bladerub.io.plain import plain
+from bladerub.io.values import plain
 from bladerub.settings.study import Config
 from bladerub.study.variants import with_variant
 
