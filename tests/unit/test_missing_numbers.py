@@ -18,9 +18,8 @@ from bladerub.extras.variations import margins
 from bladerub.extras.variations.verdicts import side_by_side, verdicts
 from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
+from bladerub.plots.maps import peak_sections, spectrum_map, wear_map
 from bladerub.plots.polar import wear_profiles
-from bladerub.plots.spectrum import peak_sections, spectrum_map
-from bladerub.plots.wear_map import wear_map
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import coating_cases, speeds

@@ -211,7 +211,7 @@ class Run(Shown):
 
         `ax` are axes to draw into, polar or not, which are returned: one line more for each run.
         """
-        return plots.single_run.wear(self.angle, self.wear.mean(axis=0), self._title, path=path, ax=ax)
+        return plots.runs.wear(self.angle, self.wear.mean(axis=0), self._title, path=path, ax=ax)
 
     def plot_history(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the radial displacement of node 1 over the run and its amplitude; arguments as `plot_wear`.
@@ -219,12 +219,12 @@ class Run(Shown):
         Raises as `radial_displacement`.
         """
         moves = self.stored.data.get("revolution"), self.radial_displacement, self.revolution_amplitude
-        return plots.single_run.history(*moves, self._title, path=path, ax=ax)
+        return plots.runs.history(*moves, self._title, path=path, ax=ax)
 
     def plot_spectrum(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the amplitude over the engine order; arguments as `plot_wear`."""
         spectrum = self.spectrum
-        return plots.single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title, path=path, ax=ax)
+        return plots.runs.spectrum(spectrum.index, spectrum.to_numpy(), self._title, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all datasets with units and names, and the attributes: those of the file of `write`."""

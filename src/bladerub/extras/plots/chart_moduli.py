@@ -14,7 +14,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator
 
 from bladerub.extras.chart.settings import Limits
 from bladerub.plots import titles
-from bladerub.plots.bins import edges
+from bladerub.plots.maps import edges
 from bladerub.plots.style import DARK, HEIGHT_MAP, MISSING, PAGE, new_figure, styled
 
 PAPER_E = (0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0)

@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.plots import rotor37 as plots
 from bladerub.extras.rotor37.direct import spec_of
+from bladerub.plots.maps import spectrum_map, wear_map
 from bladerub.plots.scales import Scales
-from bladerub.plots.spectrum import spectrum_map
-from bladerub.plots.wear_map import wear_map
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, modulus_unit
 from bladerub.study.maps import read_map
