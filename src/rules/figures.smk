@@ -4,7 +4,7 @@ from dataclasses import asdict
 from typing import NamedTuple
 
 from bladerub.study.grid import CoatingCase, keeps_history, modulus_unit, run_spec, speed_name, speeds
-from bladerub.study.orders import peak_orders, peak_settings, used_casings
+from bladerub.study.peaks import peak_orders, peak_settings, used_casings
 from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, STRAIGHT_SPEED, TILTED, TILTED_SPEED, WORN
 
 

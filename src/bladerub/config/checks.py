@@ -19,8 +19,8 @@ from bladerub.settings.contact import AnyCasing
 from bladerub.settings.study import Config
 from bladerub.settings.units import speed_in_words
 from bladerub.study import grid
-from bladerub.study.orders import peak_orders, used_casings
 from bladerub.study.paper import HISTORIES
+from bladerub.study.peaks import peak_orders, used_casings
 
 Check = Callable[[Config], Iterator[str]]
 

@@ -37,7 +37,7 @@ from bladerub.study.grid import SAME_SPEED, CoatingCase, run_spec, speed_name, s
 from bladerub.study.job import RunDone, compute_missing
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
-from bladerub.study.orders import peak_orders
+from bladerub.study.peaks import peak_orders
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import row_of
 

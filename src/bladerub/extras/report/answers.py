@@ -8,8 +8,7 @@ import pandas as pd
 from bladerub.extras.report.results import Results
 from bladerub.extras.report.words import properties, ranges
 from bladerub.study.grid import listed_case
-from bladerub.study.orders import excites, peak_orders, used_casings
-from bladerub.study.peaks import crossing_speed
+from bladerub.study.peaks import crossing_speed, excites, peak_orders, used_casings
 from bladerub.study.summary import LARGE_DISPLACEMENT
 
 QUIET = 0.1  # of the highest peak of a coating, below which a speed counts as free of interaction
