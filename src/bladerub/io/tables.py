@@ -49,7 +49,8 @@ def write(
     path = Path(path)
     described = described_columns(*columns_files)
     description = _as_text(_description(path.name, table, described, origin))
-    content = table.to_csv(index=False, float_format=float_format, lineterminator="\n").encode()
+    text = table.to_csv(index=False, float_format=float_format, lineterminator="\n")
+    content = re.sub(r"(?<=[,\n])(-?)inf(?=[,\n])", r"\1INF", text).encode()  # as the W3C writes numbers
     with atomic.writing(path, "wb") as stream:
         stream.write(content)
     with atomic.writing(description_path(path), "wb") as stream:
