@@ -6,7 +6,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 =============== ===================================================================================
 ``PUBLIC``      names of the Python interface, each with its module
 ``COMMANDS``    commands of ``bladerub``, each with the module whose `add_to` names its options
-``RUN_OPTIONS`` what ``bladerub run`` can be asked for besides: classes as `bladerub.cli.run_option.RunOption`
+``RUN_OPTIONS`` what ``bladerub run`` can be asked for besides: classes as `bladerub.cli.run.RunOption`
 ``MANIFESTS``   rows of the manifests in folders of a name, for checks of all files
 ``INVENTORIES`` what counts runs beside those of the coatings, for ``bladerub status``
 ``FAULTS``      what finds damaged, lost and unreadable files of results, for ``bladerub status --thorough``

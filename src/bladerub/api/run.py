@@ -13,6 +13,7 @@ from bladerub.api.arguments import InputError, over
 from bladerub.api.display import Shown
 from bladerub.api.study import settings_of
 from bladerub.contact.result import ENERGIES, Energy
+from bladerub.io import hdf5
 from bladerub.io.errors import package
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import PREFIX, provenance
@@ -242,7 +243,8 @@ class Run(Shown):
         The names of its longer run, if it has one, begin with ``longer_``. `read_run` returns an equal run.
         Raises OSError, which names the file, if it cannot be written.
         """
-        store.write_runs(path, runs_of(self), provenance(settings_of(config, self.config).plain()))
+        origin = provenance(settings_of(config, self.config).plain())
+        hdf5.write(path, *store.joined(runs_of(self)), origin)
 
     @property
     def _title(self) -> str:

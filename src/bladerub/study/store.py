@@ -124,11 +124,6 @@ def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> No
     hdf5.write(path, *joined({"": run}), origin)
 
 
-def write_runs(path: str | Path, runs: Mapping[str, StoredRun], origin: Mapping[str, str]) -> None:
-    """Write several runs as they are `joined`, such as one and its longer one; parameters as `write_run`."""
-    hdf5.write(path, *joined(runs), origin)
-
-
 def joined(runs: Mapping[str, StoredRun]) -> tuple[dict[str, Variable], dict[str, Any]]:
     """Return variables and attributes of `runs`, whose names, also of dimensions, begin with their prefix.
 
@@ -156,7 +151,7 @@ def read_run(
 
 
 def read_runs(path: str | Path) -> dict[str, StoredRun]:
-    """Read the runs in a file of `write_run` or `write_runs` by their prefix; raises as `read_run`."""
+    """Read the runs in a file, which are `joined` there, by their prefix; raises as `read_run`."""
     data, attributes = hdf5.read(path)
     prefixes = {"", *(name.removesuffix("run_key") for name in attributes if name.endswith("run_key"))}
     runs = {}
