@@ -14,7 +14,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`);
                 what the config says below one is in ``SECTIONS``
 ``REDUCTIONS``  what reduces a blade to a tolerance, by that key of ``reduction`` of the config
-``DOUBTS``      what doubts the frequencies of a blade: functions as `bladerub.blade.accuracy.doubts`
+``DOUBTS``      what doubts the frequencies of a blade: functions as `bladerub.blade.frequencies.doubts`
 ``CASINGS``     casings that are no sum of nodal diameters, by the key of the config that describes them
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
 ``VARIANTS``    what reads laws (``law``), and what imports the time loop again with another law of the

@@ -25,7 +25,7 @@ class BuiltBlade:
     recovery: np.ndarray  # (n, n_nodes, 3), displacement of the nodes per reduced coordinate, eq. (6)
     static_displacement: np.ndarray  # (n_speeds, n_nodes, 3), from rest to the equilibria at speed, m
     static_speed: np.ndarray  # (n_speeds,), normalised, the accuracy speeds whose equilibria are known
-    accuracy: pd.DataFrame  # from `bladerub.blade.accuracy.accuracy_table`
+    accuracy: pd.DataFrame  # from `bladerub.blade.frequencies.accuracy_table`
     made_from: str  # from `bladerub.blade.files.made_from`
 
 

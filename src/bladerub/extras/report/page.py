@@ -11,7 +11,7 @@ import matplotlib
 import numpy as np
 import yaml
 
-from bladerub.blade.accuracy import doubts
+from bladerub.blade.frequencies import doubts
 from bladerub.extras.report import answers, words
 from bladerub.extras.report.results import STRESS, Results, files
 from bladerub.io.errors import package
