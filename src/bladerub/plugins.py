@@ -68,10 +68,7 @@ class MissingPart(ImportError):
 
 @cache
 def offered(kind: str) -> dict[str, str]:
-    """Where to find what all folders add of a kind, such as ``"COMMANDS"``, by name.
-
-    Raises `MissingPart` if two of them add the same name.
-    """
+    """Where to find what folders add of a kind, by name; raises `MissingPart` if two add the same name."""
     places: dict[str, str] = {}
     for plugin in _plugins():
         added = getattr(plugin, kind, {})

@@ -63,10 +63,7 @@ class ReducedBlade:
     ] = None
 
     def stiffness(self, f_omega: float) -> np.ndarray:
-        """Stiffness matrix (n, n) in N/m at the normalised rotational frequency `f_omega`, eq. (2).
-
-        Raises a ValueError outside the fitted range ``[0, f_omega_max]``.
-        """
+        """Stiffness (n, n), N/m, at the normalised `f_omega`, eq. (2); ValueError above `f_omega_max`."""
         if not 0 <= f_omega <= self.f_omega_max:
             raise ValueError(f"f_omega = {f_omega:g} is outside the fitted range [0, {self.f_omega_max:g}]")
         coefficients = (self.stiffness_0, self.stiffness_1, self.stiffness_2, *self.stiffness_higher)
@@ -79,10 +76,7 @@ class ReducedBlade:
 
     @property
     def tip_radius(self) -> float:
-        """Mean distance of the interface nodes from the axis of rotation at rest, m.
-
-        It is the radius at which the casing is drawn. In contact every node has its own.
-        """
+        """Mean distance of the interface nodes from the axis at rest, m; in contact each has its own."""
         return float(np.hypot(self.node_position[:, 1], self.node_position[:, 2]).mean())
 
     @property

@@ -59,10 +59,7 @@ class Partition:
 
 
 def constraint_modes(stiffness: sparse.csc_array, partition: Partition, solve: Solve) -> np.ndarray:
-    """Constraint modes Φ_R (n_internal, n_interface) of eq. (4); `solve` is by K_ii.
-
-    They are the static response to unit displacements of the interface.
-    """
+    """Constraint modes Φ_R (n_internal, n_interface) of eq. (4), static responses; `solve` is by K_ii."""
     coupling = stiffness[partition.internal][:, partition.interface]
     return -solve(coupling.toarray())
 

@@ -34,10 +34,7 @@ _UNITS = (
 
 
 class RunOption:
-    """What the command can be asked for besides a run (``RUN_OPTIONS`` of `bladerub.plugins`), step by step.
-
-    Each step does nothing unless defined.
-    """
+    """What ``bladerub run`` can be asked for besides (``RUN_OPTIONS``); each step does nothing by default."""
 
     units: ClassVar[Mapping[str, str]] = {}  # of the figures that it adds
 

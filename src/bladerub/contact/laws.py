@@ -40,10 +40,7 @@ def solver_digest() -> str:
 
 
 def element_law(law: Section | None) -> ElementLaw:
-    """Describe the law that ``contact.law`` of a config is, the paper's where there is none.
-
-    Raises `ValueError`, which begins with the key, if there is none such or a parameter is wrong.
-    """
+    """Describe the block ``contact.law``, the paper's for none; ValueError, key first, where it is wrong."""
     is_paper = law is None or law.plain() in ({}, {"name": PLASTIC.name})
     return PLASTIC if is_paper else _plugged_in("law").law_of(law.plain())
 
@@ -81,10 +78,7 @@ def module_for(lanes: int, name: str, law: ElementLaw = PLASTIC, turns: bool = F
 
 
 def element_parameters(coating: Coating, area: np.ndarray, time_step: float = math.inf) -> np.ndarray:
-    """Return the parameters (p, n) of elements of the cross-sections `area` (n,), m², by the coating's law.
-
-    A parameter that is one number for all is repeated.
-    """
+    """Return the parameters (p, n) of elements of cross-sections `area` (n,), m², by the coating's law."""
     parameters = module_of(coating.element_law).element(coating, area, time_step)
     return np.array([np.broadcast_to(value, area.shape) for value in parameters], dtype=float)
 

@@ -85,10 +85,7 @@ def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") 
 
 
 def check(path: str | Path) -> None:
-    """Check that a table and the description next to it are as they were written.
-
-    Raises an `OSError` that names the table if they are not, or that names what is missing or cannot be read.
-    """
+    """Raise an `OSError`, with its name, if a table or its description is absent or not as written."""
     described = description_path(path)
     try:
         json.loads(described.read_bytes())
@@ -104,10 +101,7 @@ def description_path(path: str | Path) -> Path:
 
 
 def copy(source: str | Path, target: str | Path) -> None:
-    """Copy the table at `source` to `target`, and its description, which then names that.
-
-    Raises as `check`.
-    """
+    """Copy a table, and its description, which then names the copy; raises as `check`."""
     check(source)
     content, described = Path(source).read_bytes(), json.loads(description_path(source).read_bytes())
     named = described | {"url": Path(target).name, "schema:sha256": checksum.BLANK}
@@ -122,10 +116,7 @@ def read_origin(path: str | Path) -> dict[str, str]:
 
 
 def described_columns(*columns_files: Path) -> dict[str, dict[str, Any]]:
-    """Return the description of every column by its `entry`, as "CSV on the Web" has it.
-
-    Those in `COLUMNS_FILE` come before those of the other files.
-    """
+    """Return each column's description by its `entry`, as CSV on the Web has it; `COLUMNS_FILE` first."""
     return dict(ChainMap(*map(_described, (COLUMNS_FILE, *columns_files))))
 
 

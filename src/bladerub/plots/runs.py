@@ -95,10 +95,7 @@ def spectrum(order: np.ndarray, amplitude: np.ndarray, name: str, ax: Axes | Non
 
 @on_axes
 def wear(angle: np.ndarray, depth: np.ndarray, name: str, ax: Axes | None = None) -> Figure:
-    """Draw the worn depth (n,), m, over the casing angle (n,), rad.
-
-    It is drawn outward from the unworn surface in polar axes, over degrees in others.
-    """
+    """Draw the worn depth (n,), m, over the casing angle (n,), rad: outward if polar, else in degrees."""
     axes = ax or new_figure(COLUMN, 1.15 * COLUMN).add_subplot(projection="polar")
     millimetres = 1e3 * np.asarray(depth)
     if isinstance(axes, PolarAxes):

@@ -173,10 +173,7 @@ def revolutions(described: Mapping[str, Variable]) -> dict[str, Variable]:
 
 
 def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
-    """Read a map written by `write_map`, `with_nodes` all of it.
-
-    Raises `OSError`, naming the file, if it is missing, damaged or not a map.
-    """
+    """Read a map, `with_nodes` all of it; raises `OSError`, naming the file, if it is none, or damaged."""
     unread = {} if with_nodes else {"wear_node": None}
     data, attributes = hdf5.read(path, DATASETS.keys() - unread)
     try:

@@ -95,10 +95,7 @@ class Peak(NamedTuple):
 
 
 def crossing_speed(coating: Response, order: float) -> float:
-    """Speed at which the engine order crosses C1, ``order * f_omega = C1(f_omega)``, normalised.
-
-    C1 is taken as linear between the speeds of the map; NaN if the crossing lies outside them.
-    """
+    """Normalised speed where ``order * f_omega = C1(f_omega)``, linear between those of the map, or NaN."""
     f_omega = coating.f_omega
     distance = order * f_omega - coating.C1
     if not distance[0] <= 0 <= distance[-1]:
@@ -114,10 +111,7 @@ def speed_window(coating: Response, order: float, settings: Peaks) -> tuple[floa
 
 
 def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.ndarray:
-    """Largest amplitude within `halfwidth` of an engine order at each speed, m (n,); NaN without a spectrum.
-
-    Raises `ValueError` if the spectra do not reach that order.
-    """
+    """Largest amplitude (n,), m, within `halfwidth` of an order, or NaN; ValueError beyond the spectra."""
     on_order = np.abs(coating.spectrum_order - order) <= halfwidth + 1e-9
     if not on_order.any():
         raise ValueError(

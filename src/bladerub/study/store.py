@@ -142,10 +142,7 @@ def joined(runs: Mapping[str, StoredRun]) -> tuple[dict[str, Variable], dict[str
 def read_run(
     path: str | Path, only: Set[str] | None = None, attribute_names: Set[str] | None = None
 ) -> StoredRun:
-    """Read one run, or `only` the named datasets of it, of its attributes `attribute_names` and the key.
-
-    Raises `OSError` if the file is missing, damaged or not a run; the message names it.
-    """
+    """Read one run, or `only` these datasets and `attribute_names`; raises `OSError`, naming the file."""
     data, attributes = hdf5.read(path, only, attribute_names and attribute_names | {"run_key"})
     return _checked(path, StoredRun(attributes, data), only or MAPPED)
 

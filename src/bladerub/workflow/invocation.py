@@ -67,10 +67,7 @@ def rules_of_studies(repository: Path) -> tuple[list[Path], list[str]]:
 
 
 def damage(path: str | Path, check: Callable[[str | Path], Any] = checksum.is_sealed) -> str | None:
-    """Say in a line that a file is not as it was written, by `check`; None if it is, or if there is none.
-
-    Raises an `OSError` if it cannot be read.
-    """
+    """Say in a line, by `check`, how a file is damaged; None if it is whole or absent."""
     try:
         check(path)
     except FileNotFoundError:
