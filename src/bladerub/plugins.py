@@ -6,7 +6,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 =============== ===================================================================================
 ``PUBLIC``      names of the Python interface, each with its module
 ``COMMANDS``    commands of ``bladerub``, each with the module whose `add_to` names its options
-``RUN_OPTIONS`` what ``bladerub run`` can be asked for besides: classes as `bladerub.cli.run_option.RunOption`
+``RUN_OPTIONS`` what ``bladerub run`` can be asked for besides: classes as `bladerub.cli.run.RunOption`
 ``MANIFESTS``   rows of the manifests in folders of a name, for checks of all files
 ``INVENTORIES`` what counts runs beside those of the coatings, for ``bladerub status``
 ``FAULTS``      what finds damaged, lost and unreadable files of results, for ``bladerub status --thorough``
@@ -14,7 +14,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`);
                 what the config says below one is in ``SECTIONS``
 ``REDUCTIONS``  what reduces a blade to a tolerance, by that key of ``reduction`` of the config
-``DOUBTS``      what doubts the frequencies of a blade: functions as `bladerub.blade.accuracy.doubts`
+``DOUBTS``      what doubts the frequencies of a blade: functions as `bladerub.blade.frequencies.doubts`
 ``CASINGS``     casings that are no sum of nodal diameters, by the key of the config that describes them
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
 ``VARIANTS``    what reads laws (``law``), and what imports the time loop again with another law of the
@@ -68,10 +68,7 @@ class MissingPart(ImportError):
 
 @cache
 def offered(kind: str) -> dict[str, str]:
-    """Where to find what all folders add of a kind, such as ``"COMMANDS"``, by name.
-
-    Raises `MissingPart` if two of them add the same name.
-    """
+    """Where to find what folders add of a kind, by name; raises `MissingPart` if two add the same name."""
     places: dict[str, str] = {}
     for plugin in _plugins():
         added = getattr(plugin, kind, {})

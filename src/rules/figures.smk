@@ -4,7 +4,7 @@ from dataclasses import asdict
 from typing import NamedTuple
 
 from bladerub.study.grid import CoatingCase, keeps_history, modulus_unit, run_spec, speed_name, speeds
-from bladerub.study.orders import peak_orders, peak_settings, used_casings
+from bladerub.study.peaks import peak_orders, peak_settings, used_casings
 from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, STRAIGHT_SPEED, TILTED, TILTED_SPEED, WORN
 
 
@@ -83,7 +83,7 @@ def of_casing(shape, category=None, is_planned=False):
 
 def of_map(kind, params, map, category=None, is_planned=False):
     inputs = BLADE | {"map": map}
-    return Figure(category, [f"plots.{kind}"], inputs, params, is_planned, with_data=False, script=kind)
+    return Figure(category, ["plots.maps"], inputs, params, is_planned, with_data=False, script=kind)
 
 
 def spectrum_of(case, category):
@@ -105,14 +105,14 @@ JOBS = {
     ),
     "fig03_tip_profile": Figure(
         "Model",
-        ["contact.illustration", "plots.tip_profile"],
+        ["contact.illustration", "plots.illustration"],
         BLADE,
         PLAIN | {part: part_of_run(TILTED, part) for part in ("coating", "tip")},
         in_study(TILTED),
     ),
     "fig04_coating_cycle": Figure(
         "Model",
-        ["contact.illustration", "plots.coating_cycle"],
+        ["contact.illustration", "plots.illustration"],
         {},
         PLAIN | {"coating": part_of_run(STRAIGHT, "coating")},
         in_study(STRAIGHT),
@@ -124,7 +124,7 @@ JOBS = {
     "fig09_spectrum_critical": spectrum_of(CRITICAL, "Wear and spectra"),
     "fig10_peaks": Figure(
         "Wear and spectra",
-        ["study.maps", "study.peaks", "plots.spectrum"],
+        ["study.maps", "study.peaks", "plots.maps"],
         BLADE | {"map": map_of(SOFT)},
         SPECTRUM | {"peaks": lambda wildcards: peak_settings(STUDY, SOFT.casing).plain()},
         in_study(SOFT),
@@ -140,7 +140,7 @@ JOBS = {
     "fig16_spectrum_theta015": spectrum_of(TILTED, "Angle of the elements"),
     "histories": Figure(
         "Angle of the elements",
-        ["plots.history"],
+        ["plots.runs"],
         BLADE | {"manifests": expand(rules.coating.output.manifest, coating=[STRAIGHT.name, TILTED.name])},
         SCALED | {"figures": HISTORIES},
         bool(BOTH),

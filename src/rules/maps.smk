@@ -1,5 +1,5 @@
 # Stage 3: the tables over all coatings.
-from bladerub.study.orders import peak_orders, used_casings
+from bladerub.study.peaks import peak_orders, used_casings
 
 # What decides the table of the peaks: the orders of a casing of its own, if it has any, besides those of all
 PEAKS = config["analysis"]["peaks"] | {
@@ -9,7 +9,7 @@ PEAKS = config["analysis"]["peaks"] | {
 }
 # A row for each peak, and for each run whether it diverges
 for name, module, settings in (
-    ("peaks", "study.peak_table", PEAKS),
+    ("peaks", "study.peaks", PEAKS),
     ("divergence", "study.divergence", config["analysis"]["divergence"]),
 ):
 

@@ -7,7 +7,7 @@ from bladerub.blade.model import n_interface
 from bladerub.contact.laws import law_digest
 from bladerub.study.grid import case_from_name, element_law
 from bladerub.study.plan import coating_plan, growth_key
-from bladerub.contact.sources import solver_digest
+from bladerub.contact.laws import solver_digest
 
 
 @cache

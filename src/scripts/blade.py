@@ -7,9 +7,9 @@ job.log_to(snakemake.log[0])
 import logging
 from pathlib import Path
 
-from bladerub.blade.accuracy import doubts
 from bladerub.blade.build import build
 from bladerub.blade.built import write
+from bladerub.blade.frequencies import doubts
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import typed
 

@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.blade.accuracy import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
+from bladerub.blade.frequencies import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
 from bladerub.io import tables
 
 accuracy = snakemake.input[0]

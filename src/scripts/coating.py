@@ -13,21 +13,13 @@ from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import collect_listed, write_map
-from bladerub.workflow.progress import JobProgress
 
 config, plan = typed(snakemake.config), snakemake.params.plan
 folder = Path(snakemake.params.folder)
-progress = JobProgress(folder.name, folder)
+progress = job.JobProgress(folder.name, folder)
 blade = read_reduced_blade(snakemake.input.blade)
-rows = compute_missing(
-    config,
-    plan,
-    blade,
-    folder,
-    blade_digest(snakemake.input.blade),
-    report=progress,
-    threads=snakemake.threads,
-)
+digest = blade_digest(snakemake.input.blade)
+rows = compute_missing(config, plan, blade, folder, digest, report=progress, threads=snakemake.threads)
 if path := snakemake.output.get("map"):  # rows of blades have none
     write_map(path, collect_listed(config, plan.case, blade, folder, rows), provenance(config.plain()))
 write_manifest(snakemake.output.manifest, rows)

@@ -4,7 +4,7 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.blade.accuracy import CAMPBELL_COLUMNS
+from bladerub.blade.frequencies import CAMPBELL_COLUMNS
 from bladerub.io import tables
 from bladerub.plots.campbell import campbell
 

@@ -11,7 +11,7 @@ import pandas as pd
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.illustration import pressed_elements
 from bladerub.contact.spec import PLASTIC, Coating, TipProfile
-from bladerub.plots.tip_profile import tip_profile
+from bladerub.plots.illustration import tip_profile
 
 DEPTH = 0.15e-3  # of the node below the original surface, m: usual in the study
 REACH = 6  # elements shown on each side of the node

@@ -10,7 +10,7 @@ import pandas as pd
 
 from bladerub.contact.illustration import loading_cycle
 from bladerub.contact.spec import PLASTIC, Coating
-from bladerub.plots.coating_cycle import coating_cycle
+from bladerub.plots.illustration import coating_cycle
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # load, unload, reload further, unload
 STEPS = 400  # of each branch

@@ -4,7 +4,7 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.plots.spectrum import peak_sections
+from bladerub.plots.maps import peak_sections
 from bladerub.settings.analysis import Peaks
 from bladerub.study.maps import read_map
 

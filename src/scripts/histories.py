@@ -4,9 +4,9 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.plots.history import history
+from bladerub.plots.runs import histories
 
 scales = outputs.scales(snakemake)
 for name, runs in snakemake.params.figures.items():
-    data, figure = history(runs, scales)
+    data, figure = histories(runs, scales)
     outputs.save(snakemake, figure, f"{name}_", data=data)

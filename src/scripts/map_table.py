@@ -7,12 +7,12 @@ job.log_to(snakemake.log[0])
 from pathlib import Path
 
 from bladerub.settings.study import typed
-from bladerub.study import divergence, peak_table
+from bladerub.study import divergence, peaks
 from bladerub.study.grid import modulus_unit
 from bladerub.study.maps import read_map
 
 TABLES = {  # what makes each, its column of speeds, and that of the same in rpm
-    "peaks": (peak_table.table, "f_peak", "f_peak_rpm"),
+    "peaks": (peaks.table, "f_peak", "f_peak_rpm"),
     "divergence": (divergence.table, "f_omega", "rpm"),
 }
 

@@ -4,7 +4,7 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.plots.spectrum import spectrum_map
+from bladerub.plots.maps import spectrum_map
 from bladerub.study.maps import read_map
 
 settings = snakemake.params

@@ -4,7 +4,7 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-from bladerub.plots.wear_map import wear_map
+from bladerub.plots.maps import wear_map
 from bladerub.study.maps import read_map
 
 outputs.save(snakemake, wear_map(read_map(snakemake.input.map), outputs.scales(snakemake)))

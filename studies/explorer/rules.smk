@@ -18,7 +18,7 @@ rule explorer:
         packing=files_behind("extras.explorer.page"),
         page=sorted(glob("src/bladerub/extras/explorer/page/*")),
         analysing=files_behind("study.summary"),
-        drawing=files_behind("plots.spectrum"),
+        drawing=files_behind("plots.maps"),
     output:
         f"{RESULTS}/explorer.html",
     log:

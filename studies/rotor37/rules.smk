@@ -88,8 +88,7 @@ rule rotor37:
         drawing=files_behind(
             "extras.rotor37.figures",
             "extras.rotor37.reference",
-            "plots.spectrum",
-            "plots.wear_map",
+            "plots.maps",
         ),
         independent=rules.rotor37_independent.output.table,  # a table beside those of this job
     output:

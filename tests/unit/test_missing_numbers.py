@@ -17,15 +17,14 @@ from bladerub.extras.maps.interface import Map
 from bladerub.extras.variations.verdicts import margins, side_by_side, verdicts
 from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
+from bladerub.plots.maps import peak_sections, spectrum_map, wear_map
 from bladerub.plots.polar import wear_profiles
-from bladerub.plots.spectrum import peak_sections, spectrum_map
-from bladerub.plots.wear_map import wear_map
-from bladerub.study import divergence, findings, peak_table
+from bladerub.study import divergence, findings, peaks
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import coating_cases, speeds
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import write_map
-from bladerub.study.orders import peak_settings
+from bladerub.study.peaks import peak_settings
 
 pytestmark = pytest.mark.slow
 
@@ -88,7 +87,7 @@ def accuracy(tmp_path):
 
 def judged(study, maps, accuracy):
     """Make all tables of the study; return the findings by claim."""
-    made = {"peaks": peak_table.table(study, maps), "divergence": divergence.table(study, maps)}
+    made = {"peaks": peaks.table(study, maps), "divergence": divergence.table(study, maps)}
     rom_accuracy = pd.read_csv(accuracy)
     return made, findings.judge(Evidence(study, made | {"rom_accuracy": rom_accuracy}, maps)).set_index("id")
 

@@ -14,7 +14,7 @@ import bladerub as br
 from bladerub import plugins
 from bladerub.blade.source import reader
 from bladerub.cli import main, parser, run
-from bladerub.cli.run_option import RunOption
+from bladerub.cli.run import RunOption
 from bladerub.extras.blades.settings import Source
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import PACKAGE, ROOT

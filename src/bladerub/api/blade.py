@@ -17,17 +17,16 @@ from bladerub.api.arguments import InputError, over
 from bladerub.api.display import Shown, step
 from bladerub.api.planned import Quantity
 from bladerub.api.study import Study
-from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.blade.cache import kept_at, rounded_frequency
 from bladerub.blade.files import accuracy_path, is_built, mesh_path
-from bladerub.blade.frequencies import reduced_frequencies, tip_lean
+from bladerub.blade.frequencies import ACCURACY_COLUMNS, doubts, reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.config.quantities import checked_number
 from bladerub.io import tables
-from bladerub.io.equality import equal
 from bladerub.io.errors import package
 from bladerub.io.provenance import provenance
+from bladerub.io.values import equal
 from bladerub.settings.fields import Speed
 from bladerub.settings.study import Config
 from bladerub.settings.units import speed_in_words

@@ -13,10 +13,11 @@ from bladerub.api.arguments import InputError, over
 from bladerub.api.display import Shown
 from bladerub.api.study import settings_of
 from bladerub.contact.result import ENERGIES, Energy
-from bladerub.io.equality import equal
+from bladerub.io import hdf5
 from bladerub.io.errors import package
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import PREFIX, provenance
+from bladerub.io.values import equal
 from bladerub.plots import titles
 from bladerub.settings.analysis import Divergence
 from bladerub.settings.study import Config
@@ -211,7 +212,7 @@ class Run(Shown):
 
         `ax` are axes to draw into, polar or not, which are returned: one line more for each run.
         """
-        return plots.single_run.wear(self.angle, self.wear.mean(axis=0), self._title, path=path, ax=ax)
+        return plots.runs.wear(self.angle, self.wear.mean(axis=0), self._title, path=path, ax=ax)
 
     def plot_history(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the radial displacement of node 1 over the run and its amplitude; arguments as `plot_wear`.
@@ -219,12 +220,12 @@ class Run(Shown):
         Raises as `radial_displacement`.
         """
         moves = self.stored.data.get("revolution"), self.radial_displacement, self.revolution_amplitude
-        return plots.single_run.history(*moves, self._title, path=path, ax=ax)
+        return plots.runs.history(*moves, self._title, path=path, ax=ax)
 
     def plot_spectrum(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the amplitude over the engine order; arguments as `plot_wear`."""
         spectrum = self.spectrum
-        return plots.single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title, path=path, ax=ax)
+        return plots.runs.spectrum(spectrum.index, spectrum.to_numpy(), self._title, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all datasets with units and names, and the attributes: those of the file of `write`."""
@@ -242,7 +243,8 @@ class Run(Shown):
         The names of its longer run, if it has one, begin with ``longer_``. `read_run` returns an equal run.
         Raises OSError, which names the file, if it cannot be written.
         """
-        store.write_runs(path, runs_of(self), provenance(settings_of(config, self.config).plain()))
+        origin = provenance(settings_of(config, self.config).plain())
+        hdf5.write(path, *store.joined(runs_of(self)), origin)
 
     @property
     def _title(self) -> str:

@@ -71,10 +71,7 @@ def _reduce(
 
 @threadpool_limits.wrap(limits=1)
 def meshed_blade(blade: Blade, n_nodes: int = N_INTERFACE) -> MeshedBlade:
-    """Mesh the blade of the ``blade`` block, or the one of its source, with `n_nodes` interface nodes.
-
-    Raises as `build`.
-    """
+    """Mesh the block ``blade``, or its source, with `n_nodes` interface nodes; raises as `build`."""
     if source := reader(blade):
         if not hasattr(source, "meshed"):
             raise BadInput("blade.source: its blade has no finite elements, which this needs")

@@ -1,7 +1,7 @@
 """What building a blade gives, and the files that keep it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +25,7 @@ class BuiltBlade:
     recovery: np.ndarray  # (n, n_nodes, 3), displacement of the nodes per reduced coordinate, eq. (6)
     static_displacement: np.ndarray  # (n_speeds, n_nodes, 3), from rest to the equilibria at speed, m
     static_speed: np.ndarray  # (n_speeds,), normalised, the accuracy speeds whose equilibria are known
-    accuracy: pd.DataFrame  # from `bladerub.blade.accuracy.accuracy_table`
+    accuracy: pd.DataFrame  # from `bladerub.blade.frequencies.accuracy_table`
     made_from: str  # from `bladerub.blade.files.made_from`
 
 
@@ -50,8 +50,8 @@ def write(built: BuiltBlade, origin: Mapping[str, str], reduced_model: Path) -> 
         "interface_nodes": Variable(
             ("interface_node",), mesh.interface, "1", "contact nodes, leading to trailing edge"
         ),
-        "interface_node": replace(interface_node(mesh.interface.size), dims=("interface_node",)),
-        "mode": Variable(("mode",), np.arange(1, built.frequency.size + 1), "1", "mode, counted from 1"),
+        "interface_node": interface_node(mesh.interface.size, "interface_node"),
+        "mode": hdf5.numbers("mode", built.frequency.size, "mode, counted from 1"),
         "frequency": Variable(("mode",), built.frequency, "Hz", "natural frequencies at rest"),
         "mode_shape": Variable(
             ("mode", "node", "axis"), built.mode_shape, "1", "modes at rest, largest displacement component 1"

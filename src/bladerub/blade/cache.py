@@ -37,10 +37,7 @@ def kept_frequency(config: BladeSpec) -> float | None:
 
 
 def first_frequency(config: BladeSpec) -> float:
-    """Return the first frequency at rest of the blade of `config`, Hz, as `rounded_frequency`.
-
-    It takes a few seconds and is kept. Raises as `bladerub.blade.build.frequency_at_rest`.
-    """
+    """Return the rounded first frequency at rest, Hz, kept once found; raises as `frequency_at_rest`."""
     frequency = kept_frequency(config)
     if frequency is None:
         from bladerub.blade.build import frequency_at_rest  # imports the solver

@@ -134,10 +134,7 @@ class PreconditionedCG:
 def _orthonormal(
     block: np.ndarray, basis: np.ndarray, momenta: np.ndarray, mass: sparse.csc_array
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Make what `block` (n, k) adds to the orthonormal `basis` (n, m) orthonormal in `mass`, too.
-
-    `momenta` are the mass times the basis. Returns the addition and the mass times it.
-    """
+    """Return what `block` adds to `basis`, orthonormal in `mass`, and the mass times it, as `momenta`."""
     for _ in range(2):  # the second time against the rounding of the first
         block = block - basis @ (momenta.T @ block)
         block = block / np.linalg.norm(block, axis=0)

@@ -20,10 +20,9 @@ def n_interface(config: BladeSpec) -> int:
     return config.reduction.interface_nodes or N_INTERFACE
 
 
-def interface_node(n_nodes: int) -> Variable:
+def interface_node(n_nodes: int, dim: str = "node") -> Variable:
     """Return the numbers of `n_nodes` interface nodes, as files have them."""
-    number = np.arange(1, n_nodes + 1)
-    return Variable(("node",), number, "1", "interface node, counted from 1 at the leading edge")
+    return hdf5.numbers(dim, n_nodes, "interface node, counted from 1 at the leading edge")
 
 
 AXIS = Variable(("axis",), np.array(["x", "y", "z"]), "1", "x along the axis of rotation, z along the blade")
@@ -64,10 +63,7 @@ class ReducedBlade:
     ] = None
 
     def stiffness(self, f_omega: float) -> np.ndarray:
-        """Stiffness matrix (n, n) in N/m at the normalised rotational frequency `f_omega`, eq. (2).
-
-        Raises a ValueError outside the fitted range ``[0, f_omega_max]``.
-        """
+        """Stiffness (n, n), N/m, at the normalised `f_omega`, eq. (2); ValueError above `f_omega_max`."""
         if not 0 <= f_omega <= self.f_omega_max:
             raise ValueError(f"f_omega = {f_omega:g} is outside the fitted range [0, {self.f_omega_max:g}]")
         coefficients = (self.stiffness_0, self.stiffness_1, self.stiffness_2, *self.stiffness_higher)
@@ -80,10 +76,7 @@ class ReducedBlade:
 
     @property
     def tip_radius(self) -> float:
-        """Mean distance of the interface nodes from the axis of rotation at rest, m.
-
-        It is the radius at which the casing is drawn. In contact every node has its own.
-        """
+        """Mean distance of the interface nodes from the axis at rest, m; in contact each has its own."""
         return float(np.hypot(self.node_position[:, 1], self.node_position[:, 2]).mean())
 
     @property

@@ -8,11 +8,10 @@ from scipy import sparse
 from scipy.linalg import blas
 from threadpoolctl import threadpool_limits
 
-from bladerub.blade.accuracy import accuracy_table
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.files import made_from
-from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.frequencies import accuracy_table, reduced_frequencies
 from bladerub.blade.linear import PreconditionedCG, Solve, factorise, lowest_modes
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import ReducedBlade, stiffness_at
@@ -60,10 +59,7 @@ class Partition:
 
 
 def constraint_modes(stiffness: sparse.csc_array, partition: Partition, solve: Solve) -> np.ndarray:
-    """Constraint modes Φ_R (n_internal, n_interface) of eq. (4); `solve` is by K_ii.
-
-    They are the static response to unit displacements of the interface.
-    """
+    """Constraint modes Φ_R (n_internal, n_interface) of eq. (4), static responses; `solve` is by K_ii."""
     coupling = stiffness[partition.internal][:, partition.interface]
     return -solve(coupling.toarray())
 

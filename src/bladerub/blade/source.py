@@ -24,10 +24,7 @@ FUNCTIONS = ("problems", "recipe", "files", "build")
 
 
 def place(blade: Blade) -> str | None:
-    """Name the module, below ``bladerub``, for the source of the block ``blade``; None of a parametric blade.
-
-    Raises a ValueError that begins with the key if there is none.
-    """
+    """Name the module for the source of a block ``blade``, None if parametric; ValueError if none is."""
     source, places = blade.plugged("source"), plugins.offered("SOURCES")
     if source is None:
         return None
@@ -45,10 +42,7 @@ def modules(config: BladeSpec) -> list[str]:
 
 
 def reader(blade: Blade) -> ModuleType | None:
-    """Import the module that `place` names; None of a parametric blade.
-
-    Raises `BadInput`, which names it, if it has not all functions of a source.
-    """
+    """Import what `place` names, if anything; raises `BadInput` if it lacks a function of a source."""
     name = place(blade)
     if name is None:
         return None

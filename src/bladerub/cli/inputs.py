@@ -13,7 +13,7 @@ from bladerub import plugins
 from bladerub.config import read as configuration
 from bladerub.io.errors import BadInput, DamagedFile, message_for
 from bladerub.io.folders import base_config, study_folder
-from bladerub.io.plain import plain
+from bladerub.io.values import plain
 from bladerub.settings import units
 
 if TYPE_CHECKING:  # imports that load numba are made where they are needed, so that --help answers at once

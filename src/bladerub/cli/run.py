@@ -3,16 +3,16 @@
 import argparse
 import math
 import sys
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from bladerub import plugins
 from bladerub.cli import inputs
-from bladerub.cli.inputs import quantity, refused
-from bladerub.cli.run_option import RunOption
+from bladerub.cli.inputs import Parser, quantity, refused
 from bladerub.io.errors import BadInput
 from bladerub.settings.units import doubted_modulus, speed_in_words
 
@@ -20,6 +20,8 @@ if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.blade import Blade
     from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
+    from bladerub.api.study import Study
+    from bladerub.settings.study import Config
 
 _QUANTITIES = ("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
@@ -29,6 +31,36 @@ _UNITS = (
     | dict.fromkeys(("peak_amplitude", "max_wear", "layer_thickness", "interference"), "m")
     | dict.fromkeys(("displacement_over_length", "growth_per_revolution", "damping_ratio"), "1")
 )
+
+
+class RunOption:
+    """What ``bladerub run`` can be asked for besides (``RUN_OPTIONS``); each step does nothing by default."""
+
+    units: ClassVar[Mapping[str, str]] = {}  # of the figures that it adds
+
+    def add_to(self, parser: Parser) -> None:
+        """Add the options to those of the command."""
+
+    def check(self, options: argparse.Namespace, config: "Config") -> None:
+        """Check and convert the options; raises `bladerub.io.errors.BadInput`."""
+
+    def vary(self, options: argparse.Namespace, study: "Study") -> "Study":
+        """Return the study as the options change it."""
+        return study
+
+    def arguments(self, options: argparse.Namespace) -> dict[str, Any]:
+        """Return what `bladerub.simulate` is given besides."""
+        return {}
+
+    def figures(
+        self, options: argparse.Namespace, planned: "StudyRun", blade: "Blade", run: "Run"
+    ) -> dict[str, Any]:
+        """Return what is reported of the `run` besides its own figures."""
+        return {}
+
+    def in_words(self, figures: Mapping[str, Any]) -> list[str]:
+        """Write these of all figures as lines; none if they are not there."""
+        return []
 
 
 def add_to(commands: Any) -> None:
@@ -78,7 +110,7 @@ def _options() -> dict[str, RunOption]:
     options = plugins.loaded("RUN_OPTIONS")
     for name, option in options.items():
         if not (isinstance(option, type) and issubclass(option, RunOption)):
-            reason = "must be a class as bladerub.cli.run_option.RunOption"
+            reason = "must be a class as bladerub.cli.run.RunOption"
             raise plugins.refusal("RUN_OPTIONS", name, reason)
     return {name: option() for name, option in options.items()}
 

@@ -19,8 +19,8 @@ from bladerub.settings.contact import AnyCasing
 from bladerub.settings.study import Config
 from bladerub.settings.units import speed_in_words
 from bladerub.study import grid
-from bladerub.study.orders import peak_orders, used_casings
 from bladerub.study.paper import HISTORIES
+from bladerub.study.peaks import peak_orders, used_casings
 
 Check = Callable[[Config], Iterator[str]]
 
@@ -42,10 +42,7 @@ def reads(*sections: str) -> Callable[[Check], Check]:
 
 
 def check(config: Config, broken: Collection[str]) -> list[str]:
-    """List the problems of `config`, one line each, also by what plugs in (``AGREEMENTS``).
-
-    A check is left out if it reads a section in `broken`, or one with a problem already found.
-    """
+    """List the problems of `config`, by ``AGREEMENTS`` too, but of sections that have others already."""
     problems: list[str] = []
     plugged = plugins.loaded("AGREEMENTS").items()
     added = [function for section, function in plugged if config.plugged(section) is not None]

@@ -45,10 +45,7 @@ def problems(
 
 
 def checked_quantity(value: Any, kind: Any, hint: bool = True) -> float:
-    """Return one value of this type as a plain number.
-
-    Raises a ValueError that says what would be right, with a `hint` what may have been meant.
-    """
+    """Return a value of this type as a plain number; ValueError says what is right, and a `hint`."""
     try:
         return _adapter(kind).validate_python(value, strict=True)
     except ValidationError:

@@ -30,10 +30,7 @@ class Unknown(ValueError):
 
 
 def references(config: Config) -> units.Reference:
-    """Return the sizes of a study that quantities are divided by, as `Key.convert` asks.
-
-    That of the first frequency raises ValueError or OSError if the blade cannot be computed.
-    """
+    """Return the sizes of a study for `Key.convert`; that of f1 raises if the blade cannot be computed."""
 
     def size(name: str) -> float:
         if name == "f1":
@@ -63,10 +60,7 @@ def number(name: str, value: Any, reference: units.Reference) -> Any:
 
 
 def checked_number(name: str, value: Any, kind: Any, reference: units.Reference) -> float:
-    """Return `value` as `number` does, within the bounds of the type `kind`.
-
-    Raises ValueError, which says what would be right, with its limits in the unit that was typed.
-    """
+    """Return `value` as `number`, within the bounds of `kind`; errors have limits in the unit typed."""
     plain = None
     try:
         plain = number(name, value, reference)

@@ -19,7 +19,7 @@ import numpy as np
 
 from bladerub import plugins
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec
-from bladerub.io.sources import digest_behind
+from bladerub.io.sources import digest_behind, digest_of
 from bladerub.numerics.lanes import USUAL
 from bladerub.settings.fields import Section
 
@@ -34,11 +34,13 @@ _ALONE = {
 }
 
 
-def element_law(law: Section | None) -> ElementLaw:
-    """Describe the law that ``contact.law`` of a config is, the paper's where there is none.
+def solver_digest() -> str:
+    """Digest the source of what computes a run: it is valid for this alone, and so is the machine code."""
+    return digest_of("contact", "numerics", "blade/model.py")
 
-    Raises `ValueError`, which begins with the key, if there is none such or a parameter is wrong.
-    """
+
+def element_law(law: Section | None) -> ElementLaw:
+    """Describe the block ``contact.law``, the paper's for none; ValueError, key first, where it is wrong."""
     is_paper = law is None or law.plain() in ({}, {"name": PLASTIC.name})
     return PLASTIC if is_paper else _plugged_in("law").law_of(law.plain())
 
@@ -76,10 +78,7 @@ def module_for(lanes: int, name: str, law: ElementLaw = PLASTIC, turns: bool = F
 
 
 def element_parameters(coating: Coating, area: np.ndarray, time_step: float = math.inf) -> np.ndarray:
-    """Return the parameters (p, n) of elements of the cross-sections `area` (n,), m², by the coating's law.
-
-    A parameter that is one number for all is repeated.
-    """
+    """Return the parameters (p, n) of elements of cross-sections `area` (n,), m², by the coating's law."""
     parameters = module_of(coating.element_law).element(coating, area, time_step)
     return np.array([np.broadcast_to(value, area.shape) for value in parameters], dtype=float)
 

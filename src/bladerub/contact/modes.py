@@ -23,10 +23,7 @@ class Modes(NamedTuple):
 
 
 def modes_at(blade: ReducedBlade, f_omega: float, spec: RunSpec | None = None) -> Modes:
-    """Find the modes of the blade at the normalised speed `f_omega`, as `mode_shapes_at`.
-
-    The tip moves as `at_tip` says, in contact as `spec` describes it.
-    """
+    """Find the modes at the normalised speed `f_omega`, as `mode_shapes_at`, and `at_tip` by the `spec`."""
     omega, shapes = mode_shapes_at(blade, f_omega)
     return Modes(omega, at_tip(blade, shapes, spec), blade.n_interface)
 

@@ -54,71 +54,40 @@ ENERGIES: dict[str, str] = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run and a speed sweep have in common.
+    """What a run and a speed sweep have in common, on N elements and j nodes.
 
-    Attributes
-    ----------
-    status : str
-        ``"completed"``; ``"unbounded"`` when a displacement exceeded the limit; ``"stopped"`` before its end.
-    message : str
-        The same in words.
-    angle : (N,) ndarray
-        Casing angle of the element centres, rad.
-    wear : (j, N) ndarray
-        Permanent shortening of each element under each node, m.
-    radial_displacement : (revolutions N,) ndarray
-        Of node 1, mean over the passage of each element, m; NaN after an early end.
-    revolution_peak : (revolutions,) ndarray
-        Largest absolute one in each revolution, m; NaN likewise. In free flight
-        (`bladerub.contact.kernel.free_flight`) it is that of a parabola.
-    revolution_amplitude : (revolutions,) ndarray
-        Half its range in each whole revolution, m: no mean deflection; NaN likewise.
-    n_steps, n_contact_steps : int
-        Time steps, and those of them with contact.
-    energy : Energy
-    layer : dict of str to (j, N) ndarray
-        What else the law of the coating leaves in the elements, by name; nothing by the paper's.
+    After an early end the displacement of node 1, and what is of it in each revolution, is NaN.
     """
 
-    status: str
-    message: str
-    angle: np.ndarray
-    wear: np.ndarray
-    radial_displacement: np.ndarray
+    status: str  # "completed"; "unbounded" when a displacement exceeded the limit; "stopped" before its end
+    message: str  # the same in words
+    angle: np.ndarray  # (N,), casing angle of the element centres, rad
+    wear: np.ndarray  # (j, N), permanent shortening of each element under each node, m
+    radial_displacement: np.ndarray  # (revolutions N,), of node 1, mean over the passage of each element, m
+    # (revolutions,), largest absolute one in each revolution, m; in free flight
+    # (`bladerub.contact.kernel.free_flight`) it is that of a parabola
     revolution_peak: np.ndarray
-    revolution_amplitude: np.ndarray
-    n_steps: int
+    revolution_amplitude: np.ndarray  # (revolutions,), half its range in each whole one (no mean), m
+    n_steps: int  # time steps, and those of them with contact
     n_contact_steps: int
     energy: Energy
+    # (j, N) each, what else the law of the coating leaves in the elements, by name; nothing by the paper's
     layer: dict[str, np.ndarray] = field(default_factory=dict, kw_only=True)
 
 
 @dataclass(frozen=True)
 class RunResult(Outcome):
-    """Outcome of one run, with the fields of `Outcome`.
+    """Outcome of one run, with the fields of `Outcome`."""
 
-    Attributes
-    ----------
-    time_step : float
-        s.
-    n_reversed_steps : int
-        Steps with contact in which a node that touches did not slide over the casing with the rotation: it
-        slid back or, by Coulomb's law, stuck; without any, both laws of friction give the same run.
-    slowest_sliding : float
-        Lowest speed over the casing of a node that touches, over that by the rotation: below 0 it slid back;
-        at most 1, which is also that of a run without contact.
-    n_fallback_steps : int
-        Steps in which Newton's method did not converge, so that the forces were found node by node; always 0
-        for the rigid casing, whose forces are always found so.
-    n_unconverged_steps : int
-        Steps whose forces did not converge: what they leave of imbalance goes into the run.
-    n_modes : int
-        That the scheme resolved; the others were condensed.
-    """
-
-    time_step: float
+    time_step: float  # s
+    # Steps with contact in which a node that touches did not slide over the casing with the rotation: it slid
+    # back or, by Coulomb's law, stuck; without any, both laws of friction give the same run
     n_reversed_steps: int
+    # Lowest speed over the casing of a node that touches, over that by the rotation: below 0 it slid back; at
+    # most 1, which is also that of a run without contact
     slowest_sliding: float
+    # Steps in which Newton's method did not converge, so that the forces were found node by node; always 0
+    # for the rigid casing, whose forces are always found so
     n_fallback_steps: int
-    n_unconverged_steps: int
-    n_modes: int
+    n_unconverged_steps: int  # whose forces did not converge: what they leave of imbalance goes into the run
+    n_modes: int  # that the scheme resolved; the others were condensed

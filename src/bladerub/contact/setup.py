@@ -26,10 +26,7 @@ from bladerub.numerics.lanes import lanes_for
 def set_up(
     blade: ReducedBlade, spec: RunSpec, modes: Modes | None = None, seat: Seat = ALONE
 ) -> tuple[Recurrence, Simulation]:
-    """Prepare a run from rest, by other `modes` than those of the blade at its speed where they are given.
-
-    Raises `ValueError` as `bladerub.contact.run.simulate`.
-    """
+    """Prepare a run from rest, perhaps by other `modes` than those at its speed; raises as `simulate`."""
     modes = modes or modes_at(blade, spec.f_omega, spec)
     coating, law = spec.coating, module_of(spec.coating.element_law)
     contact, passage = _contact(blade, spec), element_passage(blade, spec)

@@ -59,10 +59,7 @@ def own_steps(passage: float, n_steps: int, longest: float) -> int:
 def steps_per_element(
     spec: RunSpec, modes: Modes, contact: Contact, passage: float, depends_on_rate: bool = False
 ) -> int:
-    """Return the fewest steps in the `passage` (s) of an element that the tolerance of the run allows.
-
-    `depends_on_rate` says so of the law of the elements.
-    """
+    """Return the fewest steps in the `passage` (s) of an element that the tolerance of the run allows."""
     factor, order = (RATE, 1) if depends_on_rate else (PASSAGE**2, 2)
     n_steps = math.ceil((factor / spec.tolerance) ** (1 / order) - 1e-9)
     if spec.scheme == "central_differences":

@@ -40,7 +40,7 @@ def _in_rpm(nominal_speed: float | str) -> float:
 
 
 def doubts(table: pd.DataFrame, nominal_speed: float | str | None = None) -> list[str]:
-    """List the doubts of an accuracy table, as `bladerub.blade.accuracy.doubts`; `InputError` for no speed.
+    """List the doubts of an accuracy table, as `blade.frequencies.doubts`; `InputError` for no speed.
 
     At the speeds of its fit eq. (2) is exact: a table of these alone tells nothing of it.
     """

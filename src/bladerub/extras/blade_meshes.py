@@ -10,9 +10,9 @@ from skfem.element import Element, ElementTetP2
 from skfem.quadrature import get_quadrature
 from skfem.refdom import RefTet
 
-from bladerub.blade.accuracy import ACCURACY_COLUMNS
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.files import accuracy_path, mesh_path
+from bladerub.blade.frequencies import ACCURACY_COLUMNS
 from bladerub.blade.mesh import BladeMesh, MeshHexS2, SolidMesh
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import hdf5, tables

@@ -12,7 +12,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
-from bladerub.study import divergence, findings, peak_table
+from bladerub.study import divergence, findings, peaks
 from bladerub.study.cache import blade_digest
 from bladerub.study.findings.claim import claim_of
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
@@ -53,7 +53,7 @@ def conduct(
     # each coating of a small study has few runs
     results = dict(each_done(mapped, cases, len(cases) if solver_of(config).wants_many else 1))
     maps, n_runs = [results[case][0] for case in cases], sum(n for _, n in results.values())
-    tables = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
+    tables = {"peaks": peaks.table(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, tables | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
     selection = [part for part in findings.CLAIMS if claims is None or claim_of(part.id) in claims]
     return SmallStudy(

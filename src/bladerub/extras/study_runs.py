@@ -12,9 +12,8 @@ from bladerub.settings.analysis import Peaks
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, between, coating_cases, keeps_history, speed_name, speeds
 from bladerub.study.maps import CoatingMap, read_map
-from bladerub.study.orders import peak_settings
 from bladerub.study.paper import FIVE_LOBES, FOUR_LOBES, NEAR, TEN_LOBES, WORN
-from bladerub.study.peaks import Response, peak
+from bladerub.study.peaks import Response, peak, peak_settings
 from bladerub.study.solver import row_of
 
 LOBES = (*FIVE_LOBES, *((f_omega - NEAR, f_omega + NEAR) for f_omega in (TEN_LOBES, FOUR_LOBES)))

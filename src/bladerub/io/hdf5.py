@@ -36,6 +36,11 @@ class Variable:
     long_name: str  # what it is, in words
 
 
+def numbers(dim: str, n: int, long_name: str) -> Variable:
+    """Return the scale of a dimension whose `n` entries are counted from 1."""
+    return Variable((dim,), np.arange(1, n + 1), "1", long_name)
+
+
 def write(
     path: str | Path,
     variables: Mapping[str, Variable],

@@ -49,7 +49,8 @@ def write(
     path = Path(path)
     described = described_columns(*columns_files)
     description = _as_text(_description(path.name, table, described, origin))
-    content = table.to_csv(index=False, float_format=float_format, lineterminator="\n").encode()
+    text = table.to_csv(index=False, float_format=float_format, lineterminator="\n")
+    content = re.sub(r"(?<=[,\n])(-?)inf(?=[,\n])", r"\1INF", text).encode()  # as the W3C writes numbers
     with atomic.writing(path, "wb") as stream:
         stream.write(content)
     with atomic.writing(description_path(path), "wb") as stream:
@@ -84,10 +85,7 @@ def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") 
 
 
 def check(path: str | Path) -> None:
-    """Check that a table and the description next to it are as they were written.
-
-    Raises an `OSError` that names the table if they are not, or that names what is missing or cannot be read.
-    """
+    """Raise an `OSError`, with its name, if a table or its description is absent or not as written."""
     described = description_path(path)
     try:
         json.loads(described.read_bytes())
@@ -103,10 +101,7 @@ def description_path(path: str | Path) -> Path:
 
 
 def copy(source: str | Path, target: str | Path) -> None:
-    """Copy the table at `source` to `target`, and its description, which then names that.
-
-    Raises as `check`.
-    """
+    """Copy a table, and its description, which then names the copy; raises as `check`."""
     check(source)
     content, described = Path(source).read_bytes(), json.loads(description_path(source).read_bytes())
     named = described | {"url": Path(target).name, "schema:sha256": checksum.BLANK}
@@ -121,10 +116,7 @@ def read_origin(path: str | Path) -> dict[str, str]:
 
 
 def described_columns(*columns_files: Path) -> dict[str, dict[str, Any]]:
-    """Return the description of every column by its `entry`, as "CSV on the Web" has it.
-
-    Those in `COLUMNS_FILE` come before those of the other files.
-    """
+    """Return each column's description by its `entry`, as CSV on the Web has it; `COLUMNS_FILE` first."""
     return dict(ChainMap(*map(_described, (COLUMNS_FILE, *columns_files))))
 
 

@@ -7,10 +7,7 @@ from typing import Any
 
 
 def once(maxsize: int) -> Callable[[Callable], Callable]:
-    """Keep the last `maxsize` values of a function; one thread computes, the others wait for its value.
-
-    With `functools.lru_cache` alone each of them would compute it.
-    """
+    """Keep the last `maxsize` values; of threads that ask for one at a time, one computes and others wait."""
 
     def decorate(function: Callable) -> Callable:
         cached, lock = lru_cache(maxsize)(function), threading.Lock()

@@ -29,10 +29,7 @@ _AXIS = 35  # length of the drawn axes, mm
 
 
 def project(points: np.ndarray, eye: np.ndarray = _EYE) -> np.ndarray:
-    """Horizontal and vertical position (..., 2) of points (..., 3) in the picture, z upwards.
-
-    They are seen in parallel from the direction `eye` (3,), a unit vector.
-    """
+    """Place (..., 2) in the picture, z upwards, of points (..., 3) seen from the unit vector `eye` (3,)."""
     horizontal = np.cross([0, 0, 1], eye)
     horizontal /= np.linalg.norm(horizontal)
     return points @ np.stack([horizontal, np.cross(eye, horizontal)], axis=1)

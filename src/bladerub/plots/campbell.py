@@ -55,10 +55,7 @@ def _draw(axes: Axes, modes: tuple[np.ndarray, ...], orders: range, highest: flo
 
 
 def _number(axes: Axes, height: np.ndarray) -> None:
-    """Write the numbers of the modes, whose `height` (n_modes,) at rest is over that of the axes.
-
-    None lies on another: each stands over its line, in the first column with room above the one below.
-    """
+    """Write the numbers of modes at their `height` (n_modes,) over that of the axes, none over another."""
     tops: list[float] = []  # of the highest number in each column
     look = {"fontsize": 7, "color": DARK, "ha": "left", "va": "bottom", "textcoords": "offset points"}
     look["bbox"] = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.3}

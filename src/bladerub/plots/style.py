@@ -104,10 +104,7 @@ styled = matplotlib.rc_context(_RC)
 
 
 def on_axes(draw: Callable[..., Figure]) -> Callable[..., Any]:
-    """Let a function return the axes ``ax`` that it is given to draw into, and else its figure.
-
-    With a ``path`` the figure is written there as well, in the format of its ending.
-    """
+    """Let a function return the axes ``ax`` if given, else its figure, written to ``path`` if given."""
 
     @styled
     @wraps(draw)
@@ -127,10 +124,7 @@ def new_figure(width: float = PAGE, height: float = 0.6 * PAGE) -> Figure:
 
 @styled
 def save(figure: Figure, png: str | Path, pdf: str | Path, dpi: float) -> None:
-    """Write `figure` as a PNG of `dpi` dots per inch and as a PDF; equal data give equal files.
-
-    Both say in their metadata what made them, the one as ``Software`` and the other as ``Creator``.
-    """
+    """Write `figure` as PNG of `dpi` and PDF, equal for equal data, which say in metadata what made them."""
     origin = f"{software()}, matplotlib {matplotlib.__version__}"
     with atomic.writing(png, "wb") as stream:
         figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": origin})

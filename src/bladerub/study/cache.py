@@ -24,10 +24,7 @@ ARCHIVE = ".archive"
 
 
 def digest(determinants: Any) -> str:
-    """Digest what JSON can express, as SHA-256 in hexadecimal; the order of keys does not count.
-
-    A dataclass counts as the mapping of its fields.
-    """
+    """Digest (SHA-256) what JSON can express, or fields of dataclasses, whatever the order of keys."""
     return hashlib.sha256(json.dumps(determinants, sort_keys=True, default=vars).encode()).hexdigest()
 
 

@@ -145,10 +145,7 @@ def _case(casing: str, values: Mapping[str, float]) -> CoatingCase:
 
 
 def case_from_name(config: Config, name: str) -> CoatingCase:
-    """Find the coating called `name` among those of the study and those that plug in (``COATINGS``).
-
-    Raises `BadInput` if none is.
-    """
+    """Find a coating of the study, or one that plugs in (``COATINGS``), by name; raises `BadInput`."""
     further = (coatings(config) for coatings in plugins.loaded("COATINGS").values())
     for case in itertools.chain(coating_cases(config), *further):
         if case.name == name:
@@ -162,10 +159,7 @@ def between(f_omega: np.ndarray, low: float, high: float) -> np.ndarray:
 
 
 def speeds(config: Config) -> list[float]:
-    """List the speeds of the study, sorted, each once, normalised.
-
-    Raises `ValueError` if two are so close that their runs would have the same file name.
-    """
+    """List the speeds, normalised, ascending; ValueError if two would have the same name in paths."""
     grid = config.speeds
     n_steps = math.floor((grid.stop - grid.start) / grid.step + 1e-6)
     regular = [grid.start + index * grid.step for index in range(n_steps + 1)]

@@ -175,10 +175,7 @@ class _Job:
         )
 
     def computed(self, runs: Sequence[PlannedRun]) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
-        """Yield each run as it is done, and the seconds that it took; rows last.
-
-        The longer run of a single blade comes next, if its file is missing and the solver goes on with runs.
-        """
+        """Yield each run with its seconds, then its longer one if the solver goes on; rows last."""
         case, analysis = self.plan.case, self.config.analysis
 
         def compute_row(run: PlannedRun) -> tuple[StoredRun, float]:

@@ -94,10 +94,7 @@ def lists_longer(run_path: str | Path, run_key: str) -> bool | None:
 
 
 def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = ManifestRow) -> None:
-    """Write rows of that `kind` (tab-separated, with a header) to `path`, whole or not at all.
-
-    The name of a last column, which is empty, is the checksum of the manifest itself.
-    """
+    """Write rows of this `kind`, tab-separated, whole or not at all; their checksum is the last heading."""
     table = io.StringIO()
     writer = csv.writer(table, delimiter="\t", lineterminator="\n")
     writer.writerow([*kind._fields, checksum.BLANK])
@@ -107,10 +104,7 @@ def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = Mani
 
 
 def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[AnyRow]:
-    """Read the rows of that `kind` written by `write_manifest`; an older one may lack the last columns.
-
-    Raises `OSError`, naming the file, if it is missing, not such a manifest or not as it was written.
-    """
+    """Read rows of this `kind`, which may lack the last columns; raises `OSError`, naming the file."""
     last = 1 if checksum.is_sealed(path) else 0
     lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
     reader = csv.reader(lines, delimiter="\t")

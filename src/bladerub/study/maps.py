@@ -11,9 +11,9 @@ import numpy as np
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade, interface_node
 from bladerub.io import hdf5
-from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
+from bladerub.io.values import Comparable
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow, confirmation_path
@@ -162,18 +162,18 @@ def variables(coating: CoatingMap) -> dict[str, Variable]:
     }
     if coating.wear_node is not None:
         described["node"] = interface_node(coating.wear_node.shape[1])
-    for amplitude in ("revolution_amplitude", "confirmation_amplitude"):
-        dim, n_revolutions = described[amplitude].dims[-1], described[amplitude].data.shape[1]
-        number = np.arange(1, n_revolutions + 1)
-        described[dim] = Variable((dim,), number, "1", "revolution, counted from 1")
-    return described
+    return described | revolutions(described)
+
+
+def revolutions(described: Mapping[str, Variable]) -> dict[str, Variable]:
+    """Count the revolutions of the amplitudes in a map, and of those of the longer runs."""
+    amplitudes = (described[name] for name in ("revolution_amplitude", "confirmation_amplitude"))
+    sizes = {amplitude.dims[-1]: amplitude.data.shape[-1] for amplitude in amplitudes}
+    return {dim: hdf5.numbers(dim, size, "revolution, counted from 1") for dim, size in sizes.items()}
 
 
 def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
-    """Read a map written by `write_map`, `with_nodes` all of it.
-
-    Raises `OSError`, naming the file, if it is missing, damaged or not a map.
-    """
+    """Read a map, `with_nodes` all of it; raises `OSError`, naming the file, if it is none, or damaged."""
     unread = {} if with_nodes else {"wear_node": None}
     data, attributes = hdf5.read(path, DATASETS.keys() - unread)
     try:

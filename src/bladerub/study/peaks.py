@@ -1,15 +1,79 @@
-"""Resonant peaks: Y_k and f_k, where the engine order k crosses the first frequency C1 (Fig. 10)."""
+"""Resonant peaks: Y_k and f_k, where the engine order k crosses the first frequency C1 (Fig. 10).
 
+They are sought at those engine orders that the casing of a coating excites.
+"""
+
+from collections.abc import Iterable
 from dataclasses import asdict
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
 from bladerub.settings.analysis import Peaks
-from bladerub.study.grid import CoatingCase
+from bladerub.settings.contact import AnyCasing, Casing
+from bladerub.settings.study import Config
+from bladerub.study.grid import CoatingCase, casing_kind, coating_cases, speeds
+from bladerub.study.paper import ORDERS
+from bladerub.study.variants import with_variant
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
 """Columns of ``peaks.csv``; f_peak is normalised, amplitude in m."""
+
+
+def peak_orders(config: Config, casing: str) -> list[int]:
+    """Return the orders of the coatings of one casing: its ``peak_orders``, or ``analysis.peaks.orders``.
+
+    If those are the paper's, and the casing does not excite them within the speeds of the study, they are its
+    `excited_orders`.
+    """
+    entry, orders = config.casings[casing], config.analysis.peaks.orders
+    if entry.peak_orders:
+        return entry.peak_orders
+    slowest, *_, fastest = speeds(config)
+    suits = all(excites(entry, order) and order * slowest <= 1 <= order * fastest for order in orders)
+    if suits or orders != list(ORDERS):
+        return orders
+    return excited_orders(config, casing) or orders
+
+
+def peak_settings(config: Config, casing: str) -> Peaks:
+    """Return ``config.analysis.peaks`` with the `peak_orders` of this casing."""
+    return config.analysis.peaks.replaced("orders", peak_orders(config, casing))
+
+
+def nodal_diameters(casing: AnyCasing) -> list[int]:
+    """List the nodal diameters of a casing of the config: those with weight."""
+    if not isinstance(casing, Casing):
+        return casing_kind(casing).nodal_diameters(casing)
+    return [n for n, w in zip(casing.nodal_diameters, casing.weights, strict=False) if w]
+
+
+def excites(casing: AnyCasing, order: int) -> bool:
+    """Whether a nodal diameter of `casing` (of the config) divides the order: its harmonics are excited."""
+    return any(order % diameter == 0 for diameter in nodal_diameters(casing))
+
+
+def excited_orders(config: Config, casing: str) -> list[int]:
+    """Return the two lowest orders that the casing excites and whose peak the speeds of the study reach.
+
+    The ``speed_window`` of such an order, with C1 at rest, ends below the highest speed, and its crossing
+    with C1 at rest is not below the lowest. There may be fewer.
+    """
+    slowest, *_, fastest = speeds(config)
+    lowest_order = config.analysis.peaks.speed_window[1] / fastest
+    orders = range(1, int(config.analysis.max_order) + 1)
+    excited = [
+        k for k in orders if k >= lowest_order and k * slowest <= 1 and excites(config.casings[casing], k)
+    ]
+    return excited[:2]  # as many as the paper has
+
+
+def used_casings(config: Config) -> list[str]:
+    """List the casings that have a coating."""
+    return list(dict.fromkeys(case.casing for case in coating_cases(config)))
 
 
 class Response(Protocol):
@@ -31,10 +95,7 @@ class Peak(NamedTuple):
 
 
 def crossing_speed(coating: Response, order: float) -> float:
-    """Speed at which the engine order crosses C1, ``order * f_omega = C1(f_omega)``, normalised.
-
-    C1 is taken as linear between the speeds of the map; NaN if the crossing lies outside them.
-    """
+    """Normalised speed where ``order * f_omega = C1(f_omega)``, linear between those of the map, or NaN."""
     f_omega = coating.f_omega
     distance = order * f_omega - coating.C1
     if not distance[0] <= 0 <= distance[-1]:
@@ -50,10 +111,7 @@ def speed_window(coating: Response, order: float, settings: Peaks) -> tuple[floa
 
 
 def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.ndarray:
-    """Largest amplitude within `halfwidth` of an engine order at each speed, m (n,); NaN without a spectrum.
-
-    Raises `ValueError` if the spectra do not reach that order.
-    """
+    """Largest amplitude (n,), m, within `halfwidth` of an order, or NaN; ValueError beyond the spectra."""
     on_order = np.abs(coating.spectrum_order - order) <= halfwidth + 1e-9
     if not on_order.any():
         raise ValueError(
@@ -117,3 +175,18 @@ def row(coating: Response, order: float, settings: Peaks) -> dict[str, Any]:
     """Return the row of one coating and order of the table; parameters and errors are those of `peak`."""
     f_peak, amplitude, reason = peak(coating, order, settings)
     return asdict(coating.case) | {"order": order, "f_peak": f_peak, "amplitude": amplitude, "reason": reason}
+
+
+def table(config: Config, maps: Iterable[Response]) -> "pd.DataFrame":
+    """Find the peaks of every coating at the orders of its casing: a row each, with `COLUMNS`.
+
+    Where a peak is missing, f_peak and amplitude are NaN and the table has the column ``reason``; see
+    `with_variant`. Raises `ValueError` as `peak`.
+    """
+    import pandas as pd  # spectra do without
+
+    rows = []
+    for coating in maps:
+        settings = peak_settings(config, coating.case.casing)
+        rows += [row(coating, order, settings) for order in settings.orders]
+    return with_variant(pd.DataFrame(rows), COLUMNS, "reason")

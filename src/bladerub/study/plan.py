@@ -3,8 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
-from bladerub.contact.laws import law_digest, motion_digest
-from bladerub.contact.sources import solver_digest
+from bladerub.contact.laws import law_digest, motion_digest, solver_digest
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import digest_of
 from bladerub.settings.study import Config

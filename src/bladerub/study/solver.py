@@ -76,7 +76,7 @@ class Solver:
         return one_run.simulate_longer(*run)
 
     def determinants(self) -> dict[str, str]:
-        """Name and digest of what determines a run besides `bladerub.contact.sources`, if anything."""
+        """Name and digest of what determines a run besides `solver_digest`, if anything."""
         return {}
 
     def check(self) -> None:
@@ -130,8 +130,5 @@ def rows() -> Any:
 
 
 def row_of(config: Config) -> Any:
-    """Describe the row of blades that the runs of the study are of; None for single blades.
-
-    Raises `ValueError` if a list has neither one value nor one for each blade, and as `rows`.
-    """
+    """Describe the row of blades of a study, None for a single one; ValueError for lists of wrong length."""
     return rows().described(config) if config.plugged(ROW) else None

@@ -7,7 +7,11 @@ import scipy
 def order_spectrum(
     radial_displacement: np.ndarray, revolutions: int, spectrum_revolutions: int, max_order: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Amplitude spectrum over engine order of the last revolutions of a run.
+    """Find the amplitude spectrum over engine order of the last revolutions of a run.
+
+    `radial_displacement` (revolutions n,), m, is that at n equal steps of angle in each of the `revolutions`,
+    NaN after an early end. Returns the engine orders (m,) from 0 to `max_order`, n / 2 at most, in steps of
+    ``1 / spectrum_revolutions``, and the amplitude (m,) at each, m.
 
     A Hann window over a whole number of revolutions puts every engine order on a bin. The mean is removed
     and the window's gain corrected, so that a sine of amplitude A on a bin reads A; midway between two
@@ -16,22 +20,6 @@ def order_spectrum(
     A run that ended early is analysed over its last complete revolutions, `spectrum_revolutions` of them at
     most. When there are fewer, they are padded with zeros: the same bins, at less resolution. A run that did
     not complete one revolution has NaN amplitudes.
-
-    Parameters
-    ----------
-    radial_displacement : (revolutions * n,) ndarray
-        Displacement at n equal steps of angle in each revolution, m; NaN after an early end.
-    revolutions, spectrum_revolutions : int
-        Revolutions in the record, and in the spectrum: as many at most.
-    max_order : float
-        Highest engine order returned, n / 2 at most.
-
-    Returns
-    -------
-    order : (m,) ndarray
-        Engine orders from 0 to `max_order` in steps of ``1 / spectrum_revolutions``.
-    amplitude : (m,) ndarray
-        Amplitude, m.
     """
     samples = radial_displacement.size // revolutions
     n_bins = int(np.floor(max_order * spectrum_revolutions + 1e-9)) + 1

@@ -1,7 +1,7 @@
 """Runs on disk: one HDF5 file a run, or several runs in one, with a prefix before the names of each."""
 
 from collections.abc import Mapping, Set
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -124,11 +124,6 @@ def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> No
     hdf5.write(path, *joined({"": run}), origin)
 
 
-def write_runs(path: str | Path, runs: Mapping[str, StoredRun], origin: Mapping[str, str]) -> None:
-    """Write several runs as they are `joined`, such as one and its longer one; parameters as `write_run`."""
-    hdf5.write(path, *joined(runs), origin)
-
-
 def joined(runs: Mapping[str, StoredRun]) -> tuple[dict[str, Variable], dict[str, Any]]:
     """Return variables and attributes of `runs`, whose names, also of dimensions, begin with their prefix.
 
@@ -136,8 +131,7 @@ def joined(runs: Mapping[str, StoredRun]) -> tuple[dict[str, Variable], dict[str
     """
     variables, attributes = {}, {}
     for prefix, run in runs.items():
-        numbers = interface_node(len(run.data["wear"]))
-        variables[f"{prefix}node"] = replace(numbers, dims=(f"{prefix}node",))
+        variables[f"{prefix}node"] = interface_node(len(run.data["wear"]), f"{prefix}node")
         for name, values in run.data.items():
             dims, unit, meaning = datasets()[name]
             variables[prefix + name] = Variable(tuple(prefix + dim for dim in dims), values, unit, meaning)
@@ -148,16 +142,13 @@ def joined(runs: Mapping[str, StoredRun]) -> tuple[dict[str, Variable], dict[str
 def read_run(
     path: str | Path, only: Set[str] | None = None, attribute_names: Set[str] | None = None
 ) -> StoredRun:
-    """Read one run, or `only` the named datasets of it, of its attributes `attribute_names` and the key.
-
-    Raises `OSError` if the file is missing, damaged or not a run; the message names it.
-    """
+    """Read one run, or `only` these datasets and `attribute_names`; raises `OSError`, naming the file."""
     data, attributes = hdf5.read(path, only, attribute_names and attribute_names | {"run_key"})
     return _checked(path, StoredRun(attributes, data), only or MAPPED)
 
 
 def read_runs(path: str | Path) -> dict[str, StoredRun]:
-    """Read the runs in a file of `write_run` or `write_runs` by their prefix; raises as `read_run`."""
+    """Read the runs in a file, which are `joined` there, by their prefix; raises as `read_run`."""
     data, attributes = hdf5.read(path)
     prefixes = {"", *(name.removesuffix("run_key") for name in attributes if name.endswith("run_key"))}
     runs = {}

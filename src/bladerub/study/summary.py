@@ -38,19 +38,16 @@ def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
 def summarise(run: StoredRun, analysis: Analysis, longer: StoredRun | None = None) -> dict[str, Any]:
     """Summarise one run by the settings ``config.analysis`` of the study, in plain Python values.
 
-    Returns
-    -------
-    dict
-        ``peak_amplitude`` (m): largest absolute radial displacement of node 1 over the last
-        ``spectrum_revolutions``, or over as many before an early end; None when the first step ended the run.
-        ``engine_order``: of the largest spectral amplitude from order 0.5 up; None when the run ended within
-        its first revolution or the blade never moved. ``max_wear`` (m), ``max_<name>`` of what else the law
-        leaves in the coating (`StoredRun.layer`), ``lobes``, ``wear_harmonic`` and its share
-        (`bladerub.study.wear`). ``growth_per_revolution`` with its confidence interval ``growth_low``,
-        ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``, ``divergent``, and
-        ``growth_revolutions``: how many these were found in, those of the `longer` run if
-        there is one (`bladerub.study.growth`). ``energy_residual`` (`bladerub.contact.result.Energy`),
-        ``n_steps``, ``status``.
+    ``peak_amplitude`` (m) is the largest absolute radial displacement of node 1 over the last
+    ``spectrum_revolutions``, or over as many before an early end; None when the first step ended the run.
+    ``engine_order`` is that of the largest spectral amplitude from order 0.5 up; None when the run ended
+    within its first revolution or the blade never moved. ``max_wear`` (m), ``max_<name>`` of what else the
+    law leaves in the coating (`StoredRun.layer`), ``lobes``, ``wear_harmonic`` and its share
+    (`bladerub.study.wear`). ``growth_per_revolution`` with its confidence interval ``growth_low``,
+    ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``, ``divergent``, and
+    ``growth_revolutions``: how many these were found in, those of the `longer` run if there is one
+    (`bladerub.study.growth`). ``energy_residual`` (`bladerub.contact.result.Energy`), ``n_steps``,
+    ``status``.
     """
     data = run.data
     engine_order, height = spectral_peak(data["spectrum_order"], data["spectrum_amplitude"])

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from bladerub import plugins
+from bladerub.config.errors import ConfigError, Location
 from bladerub.config.read import LaidOver, is_whole, read_with_notes
 from bladerub.io import atomic, checksum
 from bladerub.io.errors import DamagedFile, exit_on_error
@@ -17,6 +18,8 @@ from bladerub.io.sources import extras_behind
 from bladerub.settings.study import Config
 from bladerub.study.manifest import ManifestRow, Row, listed_files
 from bladerub.workflow.job import collect_seldom
+
+_OF_MODULE = "config of the module"
 
 
 def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[str], LaidOver]:
@@ -30,9 +33,11 @@ def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[
     """
     settings = workflow.config_settings
     base, laid_over, source = CONFIG, LaidOver([*map(str, settings.configfiles)], settings.config), "--config"
+    if not isinstance(config, Mapping):
+        raise ConfigError.at(Location(_OF_MODULE), "must hold keys, as config/config.yaml does")
     if config and config != settings.overwrite_config:
         base = CONFIG if CONFIG.is_file() and is_whole(CONFIG) else ROOT / CONFIG
-        laid_over, source = LaidOver((), config), "config of the module"
+        laid_over, source = LaidOver((), config), _OF_MODULE
     study, notes = read_with_notes(
         base,
         *laid_over.files,
@@ -62,10 +67,7 @@ def rules_of_studies(repository: Path) -> tuple[list[Path], list[str]]:
 
 
 def damage(path: str | Path, check: Callable[[str | Path], Any] = checksum.is_sealed) -> str | None:
-    """Say in a line that a file is not as it was written, by `check`; None if it is, or if there is none.
-
-    Raises an `OSError` if it cannot be read.
-    """
+    """Say in a line, by `check`, how a file is damaged; None if it is whole or absent."""
     try:
         check(path)
     except FileNotFoundError:

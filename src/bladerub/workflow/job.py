@@ -1,13 +1,21 @@
-"""The start of every job of the workflow: where it says what it does, and how it reports an error."""
+"""What every job of the workflow reports: its log, from its start, errors, and how far it is."""
 
 import atexit
 import gc
 import sys
+import time
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
+from typing import TYPE_CHECKING
 
+from bladerub import plugins
 from bladerub.io import errors
+
+if TYPE_CHECKING:  # a job opens its log first
+    from bladerub.study.job import RunDone
+    from bladerub.study.manifest import ManifestRow
 
 _ALLOCATIONS = 100_000
 """Objects made, less those deleted, after which garbage is looked for; of Python they are 700."""
@@ -38,6 +46,39 @@ def collect_seldom() -> None:
 def log(line: object) -> None:
     """Print a line to the log of this job."""
     print(line, file=sys.stderr)
+
+
+class JobProgress:
+    """Report of `bladerub.study.job.compute_missing` on the coating `name`, called with each finished run.
+
+    The log of the job takes a line for each run, which is in `folder`, with the estimated time left; what
+    plugs in (``BARS``) shows it elsewhere.
+    """
+
+    def __init__(self, name: str, folder: Path):
+        self._name, self._computed, self._start = name, 0, time.monotonic()
+        self._bars = [bar(name, folder) for bar in plugins.loaded("BARS").values()]
+
+    def __call__(self, event: "RunDone | str") -> None:
+        """Report one computed run, or what the job waits for."""
+        log(event)
+        if not isinstance(event, str):
+            self._computed += 1
+            for bar in self._bars:
+                bar.show(event)
+
+    def finish(self, rows: "Sequence[ManifestRow]") -> None:
+        """Sum up in the log and on standard output what `compute_missing` returned."""
+        for bar in self._bars:
+            bar.close()
+        longer = sum(bool(row.confirmation_key) for row in rows)
+        unbounded = sum(row.status == "unbounded" for row in rows)
+        summary = (
+            f"{self._name}: {len(rows)} runs, {unbounded} of them unbounded, {longer} followed further; "
+            f"{self._computed} computed in {time.monotonic() - self._start:.0f} s"
+        )
+        log(summary)
+        print(summary)
 
 
 def print_doubt(line: str) -> None:

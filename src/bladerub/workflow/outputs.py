@@ -52,7 +52,7 @@ def f1_hz(snakemake: Any) -> float:
 
 
 def scales(snakemake: Any) -> "Scales":
-    """Tell a figure what its numbers are: the parameter ``scales`` of a job and `f1_hz` of its blade."""
+    """Tell a figure what its numbers are: `f1_hz` of a job, and its parameter ``scales`` if it has one."""
     from bladerub.plots.scales import Scales
 
-    return Scales(f1_hz=f1_hz(snakemake), **snakemake.params.scales)
+    return Scales(f1_hz=f1_hz(snakemake), **snakemake.params.get("scales", {}))

@@ -11,10 +11,9 @@ from bladerub.extras.ensembles import ensemble
 from bladerub.settings.study import typed
 from bladerub.study.cache import blade_digest
 from bladerub.study.maps import read_map
-from bladerub.workflow.progress import JobProgress
 
 folder, coating = Path(snakemake.params.folder), read_map(snakemake.input.map)
-progress = JobProgress(f"{coating.case.name}, ensemble", folder)
+progress = job.JobProgress(f"{coating.case.name}, ensemble", folder)
 rows = ensemble.make(
     typed(snakemake.config),
     coating,

@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
+from bladerub.blade.frequencies import ACCURACY_COLUMNS, doubts
 from bladerub.extras.explorer.page import build
 from bladerub.extras.further_columns import with_further
 from bladerub.io import atomic, tables

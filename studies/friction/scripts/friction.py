@@ -6,9 +6,7 @@ job.log_to(snakemake.log[0])
 
 from bladerub.extras.friction.table import table as compare
 from bladerub.extras.plots.studies import friction as draw
-from bladerub.plots.scales import Scales
 
 constant, coulomb = snakemake.input.manifests[::2], snakemake.input.manifests[1::2]
-scales = Scales(f1_hz=outputs.f1_hz(snakemake))
 table = compare(zip(constant, coulomb, strict=True), snakemake.params.revolutions)
-outputs.save(snakemake, draw(table, scales), table=table)
+outputs.save(snakemake, draw(table, outputs.scales(snakemake)), table=table)

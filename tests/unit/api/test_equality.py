@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import bladerub as br
-from bladerub.io.equality import equal
+from bladerub.io.values import equal
 from bladerub.study.manifest import ManifestRow, confirmation_path, write_manifest
 
 

@@ -5,8 +5,7 @@ import h5py
 import numpy as np
 import pytest
 
-from bladerub.blade.accuracy import accuracy_table
-from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.frequencies import accuracy_table, reduced_frequencies
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import write_reduced_blade
 from bladerub.blade.reduction import directions, tip_slope

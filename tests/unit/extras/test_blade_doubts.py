@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.blade.accuracy import doubts
+from bladerub.blade.frequencies import doubts
 
 
 def of_errors(eq2, reduced):

@@ -7,8 +7,7 @@ import pytest
 from study_fixtures import changed
 
 from bladerub import plugins
-from bladerub.blade.accuracy import accuracy_table
-from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.frequencies import accuracy_table, reduced_frequencies
 from bladerub.extras import blade_comparison, small_study
 from bladerub.extras.friction import table as friction
 from bladerub.extras.friction.coatings import compared

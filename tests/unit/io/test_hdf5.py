@@ -8,9 +8,9 @@ import xarray as xr
 
 from bladerub.io import errors, hdf5
 from bladerub.io.checksum import file_checksum
-from bladerub.io.equality import equal
 from bladerub.io.errors import DamagedFile, MissingPackage, package
 from bladerub.io.hdf5 import Variable
+from bladerub.io.values import equal
 
 VARIABLES = {
     "angle": Variable(("angle",), np.linspace(0, 6, 5), "rad", "casing angle"),

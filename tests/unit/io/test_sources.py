@@ -1,6 +1,6 @@
 import pytest
 
-from bladerub.contact.sources import solver_digest
+from bladerub.contact.laws import solver_digest
 from bladerub.extras.chart import column
 from bladerub.extras.gpu import solver
 from bladerub.io import sources
@@ -29,7 +29,7 @@ EDITS = [  # the file, the digest that it belongs to, one that it does not
 NUMBERLESS = ("io/", "plugins.py", "settings/")  # compute no number
 CONFIG = {"study/grid.py"}
 """What makes values of the config, which are in the key."""
-OF_CHART = {"study/orders.py", "study/paper.py", "study/manifest.py"}  # manifest: the name of a longer run
+OF_CHART = {"study/variants.py", "study/paper.py", "study/manifest.py"}  # manifest: the name of a longer run
 FILES = {
     "study/__init__.py": "",
     "study/maps.py": "import numpy\nfrom bladerub.study import grid\nfrom bladerub.io import hdf5\n",

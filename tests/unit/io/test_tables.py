@@ -24,6 +24,14 @@ def test_the_table_is_plain_csv(table, tmp_path):
     assert tables.read(path, ["casing"]).fillna(0.0).to_numpy().tolist() == [["2nd", 0.333], ["2nd", 0.0]]
 
 
+def test_infinite_numbers_are_as_the_w3c_has_them(table, tmp_path):
+    table = table.assign(E=[float("inf"), float("-inf")], K=float("inf"))
+    tables.write(path := tmp_path / "peaks.csv", table, ORIGIN)
+    cells = [line.split(",")[2:] for line in path.read_text().splitlines()[1:]]
+    assert cells == [["INF", "INF"], ["-INF", "INF"]]
+    assert tables.read(path).E.tolist() == [float("inf"), float("-inf")]
+
+
 def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
     tables.write(tmp_path / "peaks.csv", table, ORIGIN)
     text = (tmp_path / "peaks.csv-metadata.json").read_text(encoding="utf-8")

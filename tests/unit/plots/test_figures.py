@@ -7,14 +7,13 @@ import pandas as pd
 import pytest
 from mpl_toolkits.mplot3d import Axes3D
 
-from bladerub.plots import bins, style
+from bladerub.plots import maps, style
 from bladerub.plots.campbell import campbell
 from bladerub.plots.histogram import peak_histogram
-from bladerub.plots.history import history
+from bladerub.plots.maps import peak_sections, spectrum_map, wear_map
 from bladerub.plots.polar import casing_polar, wear_profiles
+from bladerub.plots.runs import histories
 from bladerub.plots.scales import Scales
-from bladerub.plots.spectrum import peak_sections, spectrum_map
-from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import CoatingCase
 
 RANGE = (5e-7, 5e-4)
@@ -116,10 +115,10 @@ def test_a_campbell_diagram_has_both_models_on_both_scales(draws):
 
 
 def test_an_extra_speed_opens_no_gap_and_missing_speeds_do():
-    edges, rows = bins.with_gaps([0.18, 0.19, 0.197, 0.2], np.eye(4))
+    edges, rows = maps.with_gaps([0.18, 0.19, 0.197, 0.2], np.eye(4))
     np.testing.assert_allclose(edges, [0.175, 0.185, 0.1935, 0.1985, 0.2015])
     np.testing.assert_array_equal(rows, np.eye(4))
-    edges, rows = bins.with_gaps([0.1, 0.11, 0.12, 0.3, 0.31], np.arange(5.0)[:, None])
+    edges, rows = maps.with_gaps([0.1, 0.11, 0.12, 0.3, 0.31], np.arange(5.0)[:, None])
     np.testing.assert_allclose(edges, [0.095, 0.105, 0.115, 0.13, 0.29, 0.305, 0.315])
     np.testing.assert_array_equal(rows[:, 0], [0, 1, 2, np.nan, 3, 4])
 
@@ -140,7 +139,7 @@ def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(dra
 def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(write_run, make_result, case, draws):
     steady, growing = make_result(), make_result(growth=0.2, complete=15)
     straight = write_run("straight.h5", result=steady, history=True, case=replace(case, theta=0.0))
-    table, figure = history([straight, write_run("leaning.h5", result=growing, history=True)])
+    table, figure = histories([straight, write_run("leaning.h5", result=growing, history=True)])
     axes = draws(figure).axes
     for panel, result in zip(axes, (steady, growing), strict=False):
         np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * result.radial_displacement)

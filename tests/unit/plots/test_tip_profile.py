@@ -8,8 +8,7 @@ from bladerub.blade.surface import boundary_faces, normals
 from bladerub.contact.illustration import loading_cycle, pressed_elements
 from bladerub.contact.spec import Coating, TipProfile
 from bladerub.plots.blade_mesh import front_faces, project
-from bladerub.plots.coating_cycle import coating_cycle
-from bladerub.plots.tip_profile import tip_profile
+from bladerub.plots.illustration import coating_cycle, tip_profile
 
 COATING = Coating(2.0, 0.5, 0.15, yield_stress=0.0, modulus_unit=1e8, thickness=5e-3, n_elements=2000)
 SCENE = pressed_elements(COATING, TipProfile(half_width=1.0, edge_drop=20e-6), 0.65, depth=1e-4, reach=3)

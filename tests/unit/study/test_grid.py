@@ -6,7 +6,7 @@ import pytest
 from study_fixtures import changed
 
 from bladerub.io import tables
-from bladerub.study import divergence, grid, peak_table
+from bladerub.study import divergence, grid, peaks
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase
 from bladerub.study.plan import coating_plan
@@ -118,7 +118,7 @@ def test_tables_tell_variants_from_the_plain_coating(config, make_map, tmp_path)
         make_map(case, {4: (0.3, 1e-4), 6: (0.2, height)})
         for case, height in ((PLAIN, 2e-4), (VARIANT, 6e-4))
     ]
-    for table in (peak_table.table, divergence.table):
+    for table in (peaks.table, divergence.table):
         assert "variant" not in table(config, maps[:1])
         tables.write(tmp_path / "table.csv", table(config, maps), {})
         read = tables.read(tmp_path / "table.csv")
@@ -128,6 +128,6 @@ def test_tables_tell_variants_from_the_plain_coating(config, make_map, tmp_path)
             assert len(rows) == len(read) / 2
             assert set(rows.variant.fillna("")) == {case.variant}
         pd.testing.assert_frame_equal(plain(read), plain(table(config, maps[:1])), check_dtype=False)
-    found = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
+    found = {"peaks": peaks.table(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, found | {"rom_accuracy": None}, maps)
     assert evidence.peak(PLAIN, 6, "amplitude") == pytest.approx(2e-4)  # judged without variants

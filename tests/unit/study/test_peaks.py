@@ -3,7 +3,7 @@ import pytest
 
 from bladerub.study import divergence, peaks
 from bladerub.study.grid import CoatingCase
-from bladerub.study.peak_table import table
+from bladerub.study.peaks import table
 from bladerub.study.store import stored_run
 from bladerub.study.summary import spectral_peak, summarise
 

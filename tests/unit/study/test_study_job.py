@@ -10,7 +10,7 @@ from study_fixtures import changed
 
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
-from bladerub.study import divergence, maps, peak_table
+from bladerub.study import divergence, maps, peaks
 from bladerub.study.grid import CoatingCase
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
@@ -140,7 +140,7 @@ def test_the_rigid_casing_is_in_the_tables_as_a_coating_of_infinite_moduli(study
     maps.write_map(tmp_path / "map.h5", make_map(case, {4: (0.31, 1e-4), 6: (0.2, 1e-4)}, lobes=0), {})
     coating = maps.read_map(tmp_path / "map.h5")
     assert coating.case == case
-    for table in (peak_table.table, divergence.table):
+    for table in (peaks.table, divergence.table):
         table(study, [coating]).to_csv(tmp_path / "table.csv", index=False)
         read = pd.read_csv(tmp_path / "table.csv")
         assert (np.isinf(read.E) & np.isinf(read.K)).all()

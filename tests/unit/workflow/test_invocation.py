@@ -81,3 +81,9 @@ def test_a_mistake_in_a_module_statement_is_said_to_be_there(monkeypatch):
     monkeypatch.chdir(ROOT)
     with pytest.raises(BadInput, match=r"^config of the module: solver.revolutions = 0: "):
         invocation.read_config(called_with([], {}, {}), {"solver": {"revolutions": 0}})
+
+
+@pytest.mark.parametrize("values", [["solver"], []])
+def test_a_list_in_a_module_statement_is_no_config(values):
+    with pytest.raises(BadInput, match=r"^config of the module: must hold keys, as config/config.yaml does$"):
+        invocation.read_config(called_with([], {}, {}), values)

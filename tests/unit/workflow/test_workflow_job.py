@@ -69,7 +69,7 @@ def test_tables_and_figure_go_to_their_outputs(tmp_path):
 def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need():
     """A study draws a hundred, each by a job that imports anew."""
     program = (
-        "import sys; import bladerub.plots.wear_map, bladerub.study.peaks, bladerub.workflow.outputs; "
+        "import sys; import bladerub.plots.maps, bladerub.study.peaks, bladerub.workflow.outputs; "
         "print([name for name in ('numba', 'scipy.linalg', 'scipy.ndimage', 'skfem') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

@@ -20,7 +20,7 @@ from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import APPROACH, Modal, advance_forced, advance_free, correct, store_tip
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
-from bladerub.contact.sources import solver_digest
+from bladerub.contact.laws import solver_digest
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, where

@@ -35,7 +35,7 @@ from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, run_spec
 from bladerub.study.job import compute_missing
 from bladerub.study.maps import first_frequency
-from bladerub.study.orders import peak_orders
+from bladerub.study.peaks import peak_orders
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import each_done
 from bladerub.study.store import stored_run, write_run

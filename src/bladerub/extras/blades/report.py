@@ -8,9 +8,8 @@ import scipy
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
-from bladerub.blade.accuracy import doubts
 from bladerub.blade.built import BuiltBlade
-from bladerub.blade.frequencies import reduced_frequencies, tip_lean
+from bladerub.blade.frequencies import doubts, reduced_frequencies, tip_lean
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
 from bladerub.extras.blade_doubts import errors_by_mode

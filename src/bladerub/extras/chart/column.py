@@ -10,8 +10,7 @@ import numpy as np
 
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.laws import law_digest
-from bladerub.contact.sources import solver_digest
+from bladerub.contact.laws import law_digest, solver_digest
 from bladerub.extras.chart import point as points
 from bladerub.extras.chart.plan import chart_speeds
 from bladerub.extras.chart.point import ChartSpeeds, PointRow, chart_orders

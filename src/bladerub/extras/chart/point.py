@@ -13,7 +13,7 @@ from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.manifest import ListedFile
-from bladerub.study.orders import peak_orders
+from bladerub.study.peaks import peak_orders
 
 MEASURES = {
     "peak": ("m", "greatest absolute radial displacement of node 1"),

@@ -25,12 +25,12 @@ import scipy
 from bladerub.extras.ensembles.ensemble import Ensemble
 from bladerub.extras.study_runs import judged
 from bladerub.settings.study import Config
-from bladerub.study import divergence, findings, peak_table
+from bladerub.study import divergence, findings, peaks
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.growth import Verdict
 from bladerub.study.maps import CoatingMap
-from bladerub.study.orders import peak_settings
+from bladerub.study.peaks import peak_settings
 from bladerub.study.variants import plain, with_variant
 
 PROBABILITY = 0.9
@@ -97,18 +97,18 @@ def with_runs(
 def of_peaks(config: Config, maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> pd.DataFrame:
     """Find the peaks of every coating, with `PEAK_COLUMNS` and what E = 1 and K = 1 are, Pa."""
     refined = [ensemble.refined for ensemble in ensembles]
-    peaks = peak_table.table(config, maps)
+    study_peaks = peaks.table(config, maps)
     *drawn, finer = (
-        peak_table.table(config, with_runs(maps, ensembles, runs)) for runs in [*draws(ensembles), refined]
+        peaks.table(config, with_runs(maps, ensembles, runs)) for runs in [*draws(ensembles), refined]
     )
-    table, cases = peaks.assign(draws=1 + len(drawn)), {runs.case for runs in refined}
+    table, cases = study_peaks.assign(draws=1 + len(drawn)), {runs.case for runs in refined}
     orders = [(coating.case, peak_settings(config, coating.case.casing).orders) for coating in maps]
     is_refined = [case in cases for case, of_case in orders for _ in of_case]
     for name in ("f_peak", "amplitude"):
-        bands = [band(values) for values in np.transpose([draw[name] for draw in (peaks, *drawn)])]
+        bands = [band(values) for values in np.transpose([draw[name] for draw in (study_peaks, *drawn)])]
         table = table.join(pd.DataFrame(bands, index=table.index).add_prefix(f"{name}_"))
         table[f"{name}_error"] = (ERROR * (finer[name] - table[name]).abs()).where(is_refined)
-    return table[[*peaks.columns, *PEAK_COLUMNS]].assign(modulus_unit=modulus_unit(config))
+    return table[[*study_peaks.columns, *PEAK_COLUMNS]].assign(modulus_unit=modulus_unit(config))
 
 
 def of_runs(config: Config, maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> pd.DataFrame:
@@ -165,7 +165,7 @@ def of_findings(
         study, rows = with_runs(maps, ensembles, replacing), runs.copy()
         drawn = plain(divergence.table(config, replacing)).set_index(keys)
         rows.loc[drawn.index] = drawn
-        tables = {"peaks": peak_table.table(config, study), "divergence": rows.reset_index()}
+        tables = {"peaks": peaks.table(config, study), "divergence": rows.reset_index()}
         tables["rom_accuracy"] = rom_accuracy
         judged = findings.judge(Evidence(config, tables, study), claims)
         return judged.set_index("id").holds.reindex(table["id"]).to_numpy()

@@ -27,17 +27,17 @@ from bladerub.contact.spec import RunSpec
 from bladerub.extras.ensembles.settings import Ensemble as Settings
 from bladerub.extras.study_runs import chosen, judged, on_lobes, with_history
 from bladerub.io import hdf5
-from bladerub.io.equality import Comparable
 from bladerub.io.errors import BadInput, DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
+from bladerub.io.values import Comparable
 from bladerub.settings.study import Config
 from bladerub.study import maps
 from bladerub.study.grid import SAME_SPEED, CoatingCase, run_spec, speed_name, speeds
 from bladerub.study.job import RunDone, compute_missing
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
-from bladerub.study.orders import peak_orders
+from bladerub.study.peaks import peak_orders
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.solver import row_of
 
@@ -81,7 +81,6 @@ REFINED = 2
 """Steps of a refined run, over those of a run of the study: members that it counts as."""
 
 _REFINED = "refined_"
-_LONGER = maps.DATASETS["confirmation_amplitude"][0][-1]
 _FINER = "with a quarter of the tolerance of the step"
 
 
@@ -167,11 +166,9 @@ def write(path: str | Path, ensemble: Ensemble, origin: Mapping[str, str]) -> No
         values = _equally_long(*(getattr(runs, name) for runs in (*ensemble.members, ensemble.refined)))
         variables[name] = Variable(("member", *dims), np.stack(values[:-1]), unit, long_name)
         variables[_REFINED + name] = Variable(dims, values[-1], unit, f"{long_name}, {_FINER}")
-    for dim, of_dim in (("revolution_number", "revolution_peak"), (_LONGER, "confirmation_amplitude")):
-        number = np.arange(1, variables[of_dim].data.shape[-1] + 1)
-        variables[dim] = Variable((dim,), number, "1", "revolution, counted from 1")
-    number = np.arange(1, len(ensemble.members) + 1)
-    variables["member"] = Variable(("member",), number, "1", "member, counted from 1 as its runs are")
+    variables |= maps.revolutions(variables)
+    member = "member, counted from 1 as its runs are"
+    variables["member"] = hdf5.numbers("member", len(ensemble.members), member)
     hdf5.write(path, variables, {**vars(first.case)}, origin)
 
 

@@ -16,13 +16,14 @@ from bladerub.extras.bounds import whole_number
 from bladerub.extras.ensembles.bands import band
 from bladerub.extras.ensembles.ensemble import starts
 from bladerub.extras.many_runs import solve_all
-from bladerub.io.equality import Comparable
+from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.provenance import PREFIX, config_digest, provenance
+from bladerub.io.values import Comparable
 from bladerub.study.grid import speed_name
 from bladerub.study.plan import planned_run
 from bladerub.study.solver import row_of
-from bladerub.study.store import StoredRun, read_runs, write_runs
+from bladerub.study.store import StoredRun, joined, read_runs
 from bladerub.study.summary import spectral_peak
 
 _START = "initial_displacement"  # attribute of each run in the file of an ensemble, m
@@ -105,7 +106,7 @@ class Ensemble(Shown, Comparable):
             together |= runs_of(run, prefix)
             attributes = run.attributes | {_START: start}
             together[prefix] = replace(run.stored, attributes=attributes)
-        write_runs(path, together, provenance(self.planned.config.plain()))
+        hdf5.write(path, *joined(together), provenance(self.planned.config.plain()))
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
         table = self.bands()

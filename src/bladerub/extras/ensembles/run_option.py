@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
-from bladerub.cli.run_option import RunOption
+from bladerub.cli.run import RunOption
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from bladerub.io.plain import plain
+from bladerub.io.values import plain
 from bladerub.plots.scales import ORDERS
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow

@@ -17,7 +17,8 @@ from bladerub.extras.explorer import coating
 from bladerub.extras.explorer.coating import mm
 from bladerub.io.errors import package
 from bladerub.io.provenance import software
-from bladerub.plots import bins, style, titles
+from bladerub.plots import style, titles
+from bladerub.plots.maps import edges, with_gaps
 from bladerub.plots.scales import ORDERS
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import read_manifest
@@ -83,13 +84,13 @@ def build(
 
 def _scales(coating_map: CoatingMap, max_frequency: float) -> dict[str, Any]:
     """Axes that all coatings share, from any of them: bins of speed with gaps, of the angle in degrees."""
-    speed_edges, speed_of_bin = bins.with_gaps(coating_map.f_omega, np.arange(coating_map.f_omega.size))
+    speed_edges, speed_of_bin = with_gaps(coating_map.f_omega, np.arange(coating_map.f_omega.size))
     return {
         "f_omega": coating_map.f_omega,
         "C1": coating_map.C1,
         "speed_edges": speed_edges,
         "speed_of_bin": speed_of_bin,
-        "angle_edges": np.degrees(bins.edges(coating_map.angle)[coating.arcs(coating_map.angle.size)]),
+        "angle_edges": np.degrees(edges(coating_map.angle)[coating.arcs(coating_map.angle.size)]),
         "order": coating_map.spectrum_order,
         "kept": coating.kept_orders(coating_map.f_omega, coating_map.spectrum_order, max_frequency),
     }

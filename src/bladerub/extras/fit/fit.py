@@ -23,8 +23,8 @@ from bladerub.contact import law
 from bladerub.contact.spec import Coating
 from bladerub.extras.fit.curves import Curve
 from bladerub.extras.fit.curves import read as read_curves
-from bladerub.io.equality import Comparable
 from bladerub.io.errors import BadInput
+from bladerub.io.values import Comparable
 
 # parameters by name, in the order of the fit, with their units
 UNITS = {"E": "Pa", "K": "Pa", "yield_stress": "Pa", "overstress": "Pa", "exponent": "1"}

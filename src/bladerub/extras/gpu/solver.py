@@ -74,6 +74,6 @@ _servers: list[subprocess.Popen] = []  # keeps their input open
 
 @cache
 def gpu_digest() -> str:
-    """Digest the source of what computes a run on a GPU, besides `bladerub.contact.sources.solver_digest`."""
+    """Digest the source of what computes a run on a GPU, besides `bladerub.contact.laws.solver_digest`."""
     folder = sources.PACKAGE / "extras" / "gpu"
     return sources.source_digest(path for path in folder.iterdir() if path.suffix in (".py", ".h", ".cu"))

@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from bladerub.cli import inputs
-from bladerub.cli.run_option import RunOption
+from bladerub.cli.run import RunOption
 from bladerub.extras.law_options import PARAMETER, law_parameters
 from bladerub.io.errors import BadInput
 

@@ -99,7 +99,7 @@ class Map(Shown):
 
         In the axes `ax`, which are returned, is the wear without the number of lobes.
         """
-        return plots.wear_map.wear_map(self.coating, self._scales, path=path, ax=ax)
+        return plots.maps.wear_map(self.coating, self._scales, path=path, ax=ax)
 
     def plot_spectrum(
         self,
@@ -125,7 +125,7 @@ class Map(Shown):
             raise InputError("max_frequency", max_frequency, "must be a number above 0")
         largest = plots.scales.greatest(self.coating.spectrum_amplitude)
         ends = amplitude_range or (1e-3 * largest, largest)
-        return plots.spectrum.spectrum_map(self.coating, ends, max_frequency, self._scales, path=path, ax=ax)
+        return plots.maps.spectrum_map(self.coating, ends, max_frequency, self._scales, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all arrays with coordinates, units and names."""

@@ -2,7 +2,7 @@
 
 Who replaces coatings, casings or speeds need not change what the study of the paper says of those that were
 there: its histories of runs that are not planned have no effect, and casings that do not excite its engine
-orders have others (`bladerub.study.orders`).
+orders have others (`bladerub.study.peaks`).
 """
 
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ from bladerub.contact.casing import gap
 from bladerub.settings.study import Config
 from bladerub.settings.units import doubted_modulus
 from bladerub.study import grid
-from bladerub.study.orders import excited_orders, excites, nodal_diameters, peak_orders, used_casings
+from bladerub.study.peaks import excited_orders, excites, nodal_diameters, peak_orders, used_casings
 
 
 def notes(config: Config) -> list[str]:

@@ -23,7 +23,7 @@ from bladerub.study.divergence import verdicts
 from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
-from bladerub.study.orders import peak_settings
+from bladerub.study.peaks import peak_settings
 from bladerub.study.variants import with_variant
 
 COLUMNS = [

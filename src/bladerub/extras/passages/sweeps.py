@@ -17,8 +17,7 @@ from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap, first_frequency
-from bladerub.study.orders import peak_orders
-from bladerub.study.peaks import amplitude_in_window, maximum, peak, speed_window
+from bladerub.study.peaks import amplitude_in_window, maximum, peak, peak_orders, speed_window
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.variants import with_variant
 

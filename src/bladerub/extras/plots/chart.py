@@ -17,7 +17,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, StrMethodF
 from bladerub.extras.chart.settings import Limits
 from bladerub.extras.chart.stiffening import is_stiffened
 from bladerub.plots import style, titles
-from bladerub.plots.bins import edges
+from bladerub.plots.maps import edges
 
 PAPER_E = (0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0)  # moduli of the paper's Figs. 11 to 14,
 PAPER_K = (0.05, 0.1, 0.5, 1.0, 5.0, 10.0)  # which make 54 coatings

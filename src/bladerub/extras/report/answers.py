@@ -14,8 +14,7 @@ from bladerub.extras.report.results import Results
 from bladerub.settings.study import Config
 from bladerub.settings.units import pressure_in_words
 from bladerub.study.grid import CoatingCase, listed_case, modulus_unit, run_spec
-from bladerub.study.orders import excites, peak_orders, used_casings
-from bladerub.study.peaks import crossing_speed
+from bladerub.study.peaks import crossing_speed, excites, peak_orders, used_casings
 from bladerub.study.summary import LARGE_DISPLACEMENT
 
 NONE = "–"  # a quantity that is not known

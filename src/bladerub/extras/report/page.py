@@ -11,17 +11,16 @@ import matplotlib
 import numpy as np
 import yaml
 
-from bladerub.blade.accuracy import doubts
+from bladerub.blade.frequencies import doubts
 from bladerub.extras.report import answers
 from bladerub.extras.report.results import STRESS, Results, files
 from bladerub.io.errors import package
 from bladerub.io.folders import ROOT
 from bladerub.io.provenance import PREFIX, config_digest, software
 from bladerub.plots.campbell import campbell
+from bladerub.plots.maps import spectrum_map, wear_map
 from bladerub.plots.scales import Scales
-from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.style import RED, data_address
-from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import modulus_unit, run_spec
 
 _SAME = {"svg.hashsalt": "bladerub", "svg.fonttype": "path"}  # equal results have equal pages

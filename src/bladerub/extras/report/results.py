@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.accuracy import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
+from bladerub.blade.frequencies import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
 from bladerub.contact.result import UNBALANCED
 from bladerub.extras.further_columns import with_further
 from bladerub.io import hdf5, tables

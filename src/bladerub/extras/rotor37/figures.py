@@ -12,9 +12,8 @@ from bladerub.contact import casing
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.rotor37.direct import spec_of
 from bladerub.plots import style
+from bladerub.plots.maps import spectrum_map, wear_map
 from bladerub.plots.scales import Scales
-from bladerub.plots.spectrum import spectrum_map
-from bladerub.plots.wear_map import wear_map
 from bladerub.settings.study import Config
 from bladerub.study.grid import coating_cases, modulus_unit
 from bladerub.study.maps import CoatingMap, read_map

@@ -12,7 +12,7 @@ from bladerub.extras.blades.similarity import tip_stiffness
 from bladerub.settings.study import Config
 from bladerub.study import divergence, peaks
 from bladerub.study.maps import CoatingMap
-from bladerub.study.orders import peak_settings
+from bladerub.study.peaks import peak_settings
 from bladerub.study.spectra import order_spectrum
 
 COLUMNS = ["number", "value", "unit", "resolution"]

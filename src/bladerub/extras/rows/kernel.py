@@ -14,7 +14,7 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 from bladerub.contact.kernel.loop import Progress, Records, Simulation, integrate
-from bladerub.contact.sources import solver_digest
+from bladerub.contact.laws import solver_digest
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import WIDTH, add_to_number, address_of, place_at, read, write
 from bladerub.numerics.vectors import LANES

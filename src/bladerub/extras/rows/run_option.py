@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import quantity
-from bladerub.cli.run_option import RunOption
+from bladerub.cli.run import RunOption
 from bladerub.extras.bounds import require
 from bladerub.io.errors import BadInput, format_value
 

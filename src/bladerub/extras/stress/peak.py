@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numba.extending import register_jitable
 
-from bladerub.contact.sources import solver_digest
+from bladerub.contact.laws import solver_digest
 from bladerub.extras.stress.nodal import NodalStress
 from bladerub.numerics.machine_code import njit_on_disk
 

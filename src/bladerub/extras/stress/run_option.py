@@ -7,7 +7,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from bladerub.cli import inputs
-from bladerub.cli.run_option import RunOption
+from bladerub.cli.run import RunOption
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:

@@ -15,11 +15,11 @@ from threadpoolctl import threadpool_limits
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.kernel import loop
 from bladerub.contact.kernel.loop import Progress, Simulation
+from bladerub.contact.laws import solver_digest
 from bladerub.contact.modes import mode_shapes_at, modes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import History, Segment, integrate
 from bladerub.contact.setup import set_up
-from bladerub.contact.sources import solver_digest
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.machine_code import njit_on_disk
 from bladerub.numerics.memory import address_of, read

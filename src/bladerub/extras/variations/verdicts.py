@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from bladerub.io.errors import BadInput
 from bladerub.plots import style
 from bladerub.settings.study import Config
-from bladerub.study import divergence, findings, peak_table
+from bladerub.study import divergence, findings, peaks
 from bladerub.study.findings.claim import SCORE
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import SAME_SPEED, SPEED_DECIMALS, speeds
@@ -152,7 +152,7 @@ def margins(config: Config, map_paths: Iterable[str | Path], rom_accuracy_path: 
         raise BadInput("coatings: margins need one without values of its own, as the claims do")
     for name, (settings, maps) in varied.items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out
-        tables = {"peaks": peak_table.table(settings, maps), "divergence": divergence.table(settings, maps)}
+        tables = {"peaks": peaks.table(settings, maps), "divergence": divergence.table(settings, maps)}
         tables["rom_accuracy"] = rom_accuracy
         judged.append(findings.judge(Evidence(settings, tables, maps)).assign(variation=name))
     return pd.concat(judged, ignore_index=True)[["variation", *findings.COLUMNS]]

@@ -32,7 +32,7 @@ from bladerub.contact.steps import STABLE_PART, with_steps
 from bladerub.contact.strips import element_passage
 from bladerub.extras.study_runs import StudyRun
 from bladerub.extras.verification.differences import Differences, differences, largest
-from bladerub.io.plain import plain
+from bladerub.io.values import plain
 from bladerub.settings.study import Config
 from bladerub.study.grid import element_law, run_spec
 from bladerub.study.solver import each_done

@@ -6,7 +6,7 @@ from bladerub.config.read import validate
 from bladerub.contact.casing import gap
 from bladerub.extras.casings.settings import MeasuredCasing
 from bladerub.study.grid import CoatingCase, casing_spec, coating_cases, run_spec
-from bladerub.study.orders import excites, nodal_diameters
+from bladerub.study.peaks import excites, nodal_diameters
 
 ANGLE = np.arange(0, 360, 5)
 GAP = 0.3 - 0.5 * np.cos(np.deg2rad(3 * ANGLE))  # mm

@@ -16,7 +16,7 @@ from bladerub.extras.further_columns import with_further
 from bladerub.extras.study_runs import chosen, judged, nearest_speed, on_lobes
 from bladerub.io import tables
 from bladerub.io.errors import BadInput
-from bladerub.study import divergence, findings, peak_table
+from bladerub.study import divergence, findings, peaks
 from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.paper import WORN
 
@@ -192,7 +192,7 @@ def ensembles(make_map):
 def test_peaks_and_runs_have_the_band_of_all_draws(config, maps, ensembles):
     table = bands.of_peaks(config, maps, ensembles)
     assert set(table.modulus_unit) == {config.contact.modulus_unit}
-    pd.testing.assert_frame_equal(table.iloc[:, :8], peak_table.table(config, maps))
+    pd.testing.assert_frame_equal(table.iloc[:, :8], peaks.table(config, maps))
     of_six, of_four = (table[(table.E == 1.1) & (table.order == order)].iloc[0] for order in (6, 4))
     expected = bands.band([5e-4, *HEIGHTS])
     assert of_six.draws == 4

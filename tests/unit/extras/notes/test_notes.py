@@ -6,8 +6,8 @@ from bladerub.config.files import Located
 from bladerub.config.read import read, read_with_notes
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases, keeps_history, listed_case, speeds
-from bladerub.study.orders import peak_orders, peak_settings
 from bladerub.study.paper import HISTORIES, ORDERS
+from bladerub.study.peaks import peak_orders, peak_settings
 
 STUDY = ROOT / "config" / "config.yaml"
 OTHER_COATING = {"coatings": [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.0]}]}

@@ -14,7 +14,7 @@ from bladerub.cli import inputs, main
 from bladerub.extras.report import answers
 from bladerub.io import hdf5, tables
 from bladerub.io.provenance import provenance
-from bladerub.study import divergence, peak_table
+from bladerub.study import divergence, peaks
 from bladerub.study.grid import coating_cases
 from bladerub.study.maps import write_map
 
@@ -65,7 +65,7 @@ def study(config, make_map, tmp_path, monkeypatch):
     choice |= {"neighbours": 5, "lowest_neighbour": 3e-4, "highest_neighbour": 9e-4}
     frames = {
         "chart_choice": pd.DataFrame([choice | {"safe_coatings": 7, "coatings": 40}]),
-        "peaks": peak_table.table(config, maps),
+        "peaks": peaks.table(config, maps),
         "divergence": divergence.table(config, maps),
         "campbell": accuracy[["f_omega", "mode", "f_fe", "f_rom"]],
         "rom_accuracy": accuracy,

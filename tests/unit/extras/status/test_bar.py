@@ -2,7 +2,7 @@ import io
 import sys
 
 from bladerub.study.job import RunDone
-from bladerub.workflow.progress import JobProgress
+from bladerub.workflow.job import JobProgress
 
 
 class Terminal(io.StringIO):

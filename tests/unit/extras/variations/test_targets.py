@@ -9,7 +9,7 @@ from study_fixtures import changed
 
 from bladerub.extras.variations.targets import measure
 from bladerub.extras.variations.verdicts import SETTINGS, STUDY, margins, side_by_side, variations
-from bladerub.study import divergence, peak_table
+from bladerub.study import divergence, peaks
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.maps import write_map
@@ -21,7 +21,7 @@ SPEEDS = np.unique(np.append(np.round(np.arange(0.02, 0.4001, 0.004), 6), [0.19,
 @pytest.fixture
 def measured(config):
     def of(*maps):
-        tables = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
+        tables = {"peaks": peaks.table(config, maps), "divergence": divergence.table(config, maps)}
         evidence = Evidence(config, tables | {"rom_accuracy": None}, maps)
         return measure(evidence, [f"C{number}" for number in range(1, 13)])
 

@@ -1,24 +1,68 @@
-"""Figures of single runs: displacement, spectrum, and what they wore off; a line for each run drawn."""
+"""Figures of runs: displacement, spectrum, and what they wore off.
+
+Those of single runs have a line for each run drawn.
+"""
+
+from collections.abc import Iterable
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
+from bladerub.plots import style, titles
 from bladerub.plots.polar import closed, prepare_polar
-from bladerub.plots.scales import greatest
-from bladerub.plots.style import BLUE, COLUMN, FIRST, GREY, PAGE, RED, SECOND, VIOLET, new_figure, on_axes
+from bladerub.plots.scales import UNKNOWN, Scales, greatest
+from bladerub.plots.style import COLUMN, FIRST, PAGE, SECOND, new_figure, on_axes, styled
+from bladerub.study.store import read_run
 
 _LOOKS = (
     FIRST,
     SECOND,
-    {"color": BLUE, "linestyle": "-."},
-    {"color": RED, "linestyle": ":"},
-    {"color": VIOLET, "linestyle": "-"},
-    {"color": GREY, "linestyle": "--"},
+    {"color": style.BLUE, "linestyle": "-."},
+    {"color": style.RED, "linestyle": ":"},
+    {"color": style.VIOLET, "linestyle": "-"},
+    {"color": style.GREY, "linestyle": "--"},
 )
+
+
+@styled
+def histories(paths: Iterable[str | Path], scales: Scales = UNKNOWN) -> tuple[pd.DataFrame, Figure]:
+    """Draw Figs. 17 and 18 from the files of two runs that differ in theta.
+
+    The table is what is drawn: ``theta``, ``revolution`` and ``radial_displacement`` of node 1, m, which is
+    NaN after an early end.
+    """
+    runs = {run.attributes["theta"]: run for run in map(read_run, paths)}
+    table = pd.concat(
+        pd.DataFrame(
+            {"theta": theta} | {name: run.data[name] for name in ("revolution", "radial_displacement")}
+        )
+        for theta, run in runs.items()
+    )
+    figure = new_figure(PAGE, 0.76 * PAGE)
+    *above, below = figure.subplots(3, 1, sharex=True, height_ratios=[1.3, 1.3, 1])
+    limit = 1.08e3 * greatest(table.radial_displacement.abs())
+    panels = zip("ab", above, runs.items(), (FIRST, SECOND), strict=True)
+    for letter, axes, (theta, run), look in panels:
+        name, about, u = titles.angle(theta), run.attributes, 1e3 * run.data["radial_displacement"]
+        axes.plot(run.data["revolution"], u, color=look["color"], linewidth=0.6)
+        axes.set(ylim=(-limit, limit), ylabel="$u_r$ (mm)", title=f"({letter}) {name}")
+        envelope = 1e3 * run.data["revolution_amplitude"]
+        below.plot(np.arange(envelope.size) + 0.5, envelope, marker="o", markersize=3, label=name, **look)
+    coating = titles.moduli(about["casing"], about["E"], about["K"], scales.modulus_unit)
+    title = f"{coating}, {titles.speed(about['f_omega'], scales.f1_hz)}"
+    figure.suptitle(title, fontsize=9.5, x=0.01, ha="left")
+    below.set_title("(c) half the range of $u_r$ in each revolution")
+    below.set(xlim=(0, envelope.size), ylim=(0, limit), xlabel="revolution", ylabel="amplitude (mm)")
+    below.xaxis.set_major_locator(MaxNLocator(integer=True))
+    below.grid(axis="y")
+    figure.legend(*below.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return table, figure
 
 
 @on_axes
@@ -51,10 +95,7 @@ def spectrum(order: np.ndarray, amplitude: np.ndarray, name: str, ax: Axes | Non
 
 @on_axes
 def wear(angle: np.ndarray, depth: np.ndarray, name: str, ax: Axes | None = None) -> Figure:
-    """Draw the worn depth (n,), m, over the casing angle (n,), rad.
-
-    It is drawn outward from the unworn surface in polar axes, over degrees in others.
-    """
+    """Draw the worn depth (n,), m, over the casing angle (n,), rad: outward if polar, else in degrees."""
     axes = ax or new_figure(COLUMN, 1.15 * COLUMN).add_subplot(projection="polar")
     millimetres = 1e3 * np.asarray(depth)
     if isinstance(axes, PolarAxes):

@@ -1,4 +1,7 @@
-"""Spectrum of the blade over frequency and speed, with the engine orders, C1 and the peaks."""
+"""Maps over the speed: wear around the casing and spectrum of the blade, each line one simulation.
+
+A bin of a map reaches half-way to the neighbouring speeds; where nothing was simulated it is empty.
+"""
 
 from typing import TYPE_CHECKING
 
@@ -6,10 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
-from bladerub.plots import bins, style, titles
+from bladerub.plots import style, titles
 from bladerub.plots.scales import LARGE, ORDERS, UNKNOWN, Scales, draw_engine_orders, greatest
-from bladerub.plots.style import PAGE, RED, new_figure
+from bladerub.plots.style import DARK, PAGE, RED, new_figure
 from bladerub.settings.analysis import Peaks
 from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import order_amplitude, peak, speed_window
@@ -17,9 +21,83 @@ from bladerub.study.peaks import order_amplitude, peak, speed_window
 if TYPE_CHECKING:
     import pandas as pd
 
-_LOOKS = (style.FIRST | {"marker": "o"}, style.SECOND | {"marker": "s"})
+_COMPLETED = {"marker": "o", "markersize": 2.5, "color": DARK, "label": "completed"}
+_ENDED_EARLY = {"marker": "x", "markersize": 4, "color": RED, "label": "ended early"}
+_RINGED = {"marker": "o", "markersize": 6, "fillstyle": "none", "color": RED, "label": LARGE}
 _LARGE = {"marker": ">", "color": RED, "markersize": 4, "linestyle": "none", "clip_on": False, "label": LARGE}
 _RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
+_LOOKS = (style.FIRST | {"marker": "o"}, style.SECOND | {"marker": "s"})
+
+
+def edges(centres: np.ndarray) -> np.ndarray:
+    """Edges (n + 1,) of the bins around `centres` (n,), half-way between; `ValueError` unless they ascend."""
+    centres = np.asarray(centres, dtype=float)
+    if centres.size < 2 or np.any(np.diff(centres) <= 0):
+        raise ValueError(f"bins need two or more ascending centres, not {centres}")
+    middle = (centres[1:] + centres[:-1]) / 2
+    return np.concatenate([[2 * centres[0] - middle[0]], middle, [2 * centres[-1] - middle[-1]]])
+
+
+def with_gaps(f_omega: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Bins around the simulated speeds (n,), with an empty row wherever speeds are missing.
+
+    A bin reaches to the middle between neighbours, but no further than the usual speed step: a long stretch
+    without a simulation stays a gap. Returns the edges of the m ≥ n bins, and the rows of `values` (n, ...)
+    with rows of NaN in the gaps.
+    """
+    f_omega, values = np.asarray(f_omega, dtype=float), np.asarray(values, dtype=float)
+    middle = edges(f_omega)
+    reach = np.median(np.diff(f_omega))
+    lower, upper = np.maximum(middle[:-1], f_omega - reach), np.minimum(middle[1:], f_omega + reach)
+    gaps = np.flatnonzero(lower[1:] > upper[:-1]) + 1
+    return np.union1d(lower, upper), np.insert(values, gaps, np.nan, axis=0)
+
+
+@style.on_axes
+def wear_map(coating: CoatingMap, scales: Scales = UNKNOWN, ax: Axes | None = None) -> Figure:
+    """Draw Fig. 6: worn depth over speed and casing angle, below it the number of worn lobes.
+
+    Runs that exceeded the displacement limit are crossed below: their wear is that of their early end. Those
+    with a displacement beyond small ones are ringed. Axes that are given hold the upper diagram.
+    """
+    upper = lower = ax
+    if ax is None:
+        figure = new_figure(PAGE, 0.68 * PAGE)
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
+        _draw_lobes(lower, coating, scales)
+        handles, labels = lower.get_legend_handles_labels()
+        if len(handles) > 1:
+            figure.legend(handles, labels, loc="outside lower center", ncols=4, handletextpad=0.4)
+    _draw_wear(upper, coating, scales)
+    lower.set_xlabel(r"rotational frequency $f_\Omega\,/\,f_1(0)$")
+    scales.add_speeds(lower, "x")
+    return upper.figure
+
+
+def _draw_wear(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
+    speed_edges, rows = with_gaps(coating.f_omega, 1e3 * coating.wear)
+    angle_edges, look = np.degrees(edges(coating.angle)), {"cmap": style.WEAR_MAP, "vmin": 0}
+    mesh = axes.pcolormesh(speed_edges, angle_edges, np.ma.masked_invalid(rows.T), **look, rasterized=True)
+    axes.figure.colorbar(mesh, ax=axes, label="worn depth, mean of the nodes (mm)", pad=0.015)
+    start = speed_edges[0] if scales.f1_hz else 0.0
+    axes.set(facecolor=style.MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
+    axes.set(xlim=(start, speed_edges[-1]))
+    axes.set_title(titles.coating(coating.case, scales.modulus_unit), loc="left")
+    if start < speed_edges[0] or not np.isfinite(rows).all():
+        axes.set_title("grey: not computed", loc="right", fontsize=7)
+    scales.draw_nominal_speed(axes.axvline)
+
+
+def _draw_lobes(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
+    completed = coating.status == "completed"
+    large = completed & scales.is_large(coating)
+    for runs, look in ((completed, _COMPLETED), (~completed, _ENDED_EARLY), (large, _RINGED)):
+        if runs.any():
+            axes.plot(coating.f_omega[runs], coating.lobes[runs], linestyle="none", **look)
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
+    axes.grid(axis="y")
+    axes.set(ylim=(0, 1.2 * max(1, coating.lobes.max())), ylabel="worn lobes")
+    scales.draw_nominal_speed(axes.axvline)
 
 
 @style.on_axes
@@ -95,11 +173,11 @@ def peak_sections(
 def _draw_spectrum(
     axes: Axes, coating: CoatingMap, amplitude_range: tuple, f_max: float, scales: Scales, **colour_bar
 ) -> None:
-    speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.spectrum_amplitude)
-    order_edges = np.maximum(bins.edges(coating.spectrum_order), 0)
-    frequency_edges, edges = np.broadcast_arrays(np.outer(speed_edges, order_edges), speed_edges[:, None])
+    speed_edges, rows = with_gaps(coating.f_omega, 1e3 * coating.spectrum_amplitude)
+    order_edges = np.maximum(edges(coating.spectrum_order), 0)
+    frequencies, speeds = np.broadcast_arrays(np.outer(speed_edges, order_edges), speed_edges[:, None])
     look = {"cmap": style.AMPLITUDE_MAP, "norm": LogNorm(*(1e3 * end for end in amplitude_range))}
-    mesh = axes.pcolormesh(frequency_edges, edges, np.ma.masked_invalid(rows), **look, rasterized=True)
+    mesh = axes.pcolormesh(frequencies, speeds, np.ma.masked_invalid(rows), **look, rasterized=True)
     speed_max = float(speed_edges[-1])
     draw_engine_orders(axes, {k: 1 / k for k in ORDERS}, f_max, speed_max)
     dashed = {"color": style.BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.4}

@@ -1,5 +1,6 @@
-"""Equality of objects that hold arrays, which `dataclass` itself cannot compare."""
+"""Nested values that hold arrays: equality, which `dataclass` cannot tell of them, and as JSON takes them."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
@@ -30,3 +31,14 @@ def equal(a: Any, b: Any) -> bool:
     if isinstance(a, Sequence) and not isinstance(a, str) and type(a) is type(b):
         return len(a) == len(b) and all(map(equal, a, b))
     return a == b
+
+
+def plain(value: Any) -> Any:
+    """Return nested values with lists for arrays and tuples, and null for NaN and infinities, as JSON has."""
+    if isinstance(value, dict):
+        return {name: plain(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(entry) for entry in value]
+    if hasattr(value, "tolist"):  # an array, or a number, of NumPy
+        return plain(value.tolist())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
