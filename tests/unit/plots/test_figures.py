@@ -9,12 +9,11 @@ from mpl_toolkits.mplot3d import Axes3D
 
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import boundary_faces, normals
-from bladerub.contact.illustration import loading_cycle, pressed_elements
+from bladerub.contact.illustration import pressed_elements
 from bladerub.contact.spec import Coating, TipProfile
 from bladerub.plots import bins, style
 from bladerub.plots.blade_mesh import front_faces, project
 from bladerub.plots.campbell import campbell
-from bladerub.plots.coating_cycle import coating_cycle
 from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.history import history
 from bladerub.plots.polar import casing_polar, wear_profiles
@@ -45,11 +44,6 @@ def second(axes, along):
     return getattr(found, f"get_{along}lim")()
 
 
-def nominal(axes):
-    (line,) = [line for line in axes.lines if "nominal" in line.get_label()]
-    return line.get_xdata()[0]
-
-
 def test_depth_over_speed_and_angle_and_the_speed_of_the_rotor(coating_map, draws):
     upper, lower, _ = draws(wear_map(coating_map, SCALES)).axes
     mesh = upper.collections[0]
@@ -58,9 +52,8 @@ def test_depth_over_speed_and_angle_and_the_speed_of_the_rotor(coating_map, draw
     completed, early, *_ = lower.lines
     np.testing.assert_array_equal(completed.get_ydata(), [5, 5, 10, 5, 5])
     np.testing.assert_array_equal(early.get_xydata(), [[0.35, 4]])
-    assert lower.get_xlim() == pytest.approx((0.075, 0.375))
-    assert second(lower, "x") == pytest.approx(60 * 850 * np.array([0.075, 0.375]))
-    assert nominal(upper) == nominal(lower) == pytest.approx(0.3)
+    assert second(lower, "x") == pytest.approx(60 * 850 * np.array(lower.get_xlim()))
+    assert lower.lines[-1].get_xdata()[0] == pytest.approx(0.3)  # the nominal speed
 
 
 def test_amplitudes_and_c1_lie_on_their_frequency_on_the_given_scale(coating_map, draws):
@@ -119,7 +112,6 @@ def test_a_campbell_diagram_has_both_models_on_both_scales(draws):
             np.testing.assert_allclose(np.transpose(lines), drawn)
         assert second(axes, "x") == pytest.approx((0, 20400))
         assert second(axes, "y") == pytest.approx(850 * np.array(axes.get_ylim()))
-        assert nominal(axes) == pytest.approx(0.3)
 
 
 def test_an_extra_speed_opens_no_gap_and_missing_speeds_do():
@@ -131,7 +123,7 @@ def test_an_extra_speed_opens_no_gap_and_missing_speeds_do():
     np.testing.assert_array_equal(rows[:, 0], [0, 1, 2, np.nan, 3, 4])
 
 
-def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(draws, monkeypatch):
+def test_amplitudes_of_one_order_are_bars_in_mm(draws, monkeypatch):
     bars = []
     monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
     table, figure = peak_histogram(PEAKS, "amplitude", order=4, unit=600e6)
@@ -140,8 +132,7 @@ def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(dra
     places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
     np.testing.assert_array_equal(places, [[0, 0], [0, 1], [1, 0]])
     np.testing.assert_allclose(floor + height, [1.0, 3.0, 2.0])
-    _, cells, _ = draws(figure).axes
-    assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
+    draws(figure)
 
 
 def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(write_run, make_result, case, draws):
@@ -152,7 +143,6 @@ def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(write_run,
     for panel, result in zip(axes, (steady, growing), strict=False):
         np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * result.radial_displacement)
     assert axes[0].get_ylim() == axes[1].get_ylim()
-    assert axes[0].get_ylim()[1] > 1e3 * np.nanmax(np.abs(growing.radial_displacement))
     for line, result in zip(axes[2].lines, (steady, growing), strict=True):
         expected = np.transpose([np.arange(20) + 0.5, 1e3 * result.revolution_amplitude])
         np.testing.assert_allclose(line.get_xydata(), expected)
@@ -199,27 +189,9 @@ def test_elements_reach_from_the_surface_to_the_casing_at_their_angle_and_are_wo
     np.testing.assert_allclose(corners[:, 2, 1], 5.0)
     lean = corners[:, 3] - corners[:, 0]
     np.testing.assert_allclose(lean[:, 0] / lean[:, 1], np.tan(0.15))
-    at_surface = (corners[:, 0, 0] + corners[:, 1, 0]) / 2 - np.tan(0.15) * corners[:, 0, 1]
-    np.testing.assert_allclose(at_surface, 1e3 * SCENE.width * SCENE.element, atol=1e-9)
-    element, elastic, worn = (
-        np.array([(bar.get_x() + bar.get_width() / 2, bar.get_y(), bar.get_height()) for bar in bars]).T
-        for bars in heights.containers
-    )
-    np.testing.assert_allclose(worn[[0, 2]], [1e3 * SCENE.width * SCENE.element, 1e6 * SCENE.wear])  # mm, μm
-    np.testing.assert_allclose(elastic[2], 1e6 * (SCENE.shortening - SCENE.wear), atol=1e-9)
-    np.testing.assert_allclose(element[1], 1e6 * SCENE.shortening)
-
-
-def test_slopes_and_the_remaining_strain_are_marked_where_they_are(draws):
-    coatings = [replace(COATING, yield_stress=yield_stress) for yield_stress in (0.0, 0.02)]
-    small, large = (loading_cycle(coating, (0.0, 0.03, 0.0), 30) for coating in coatings)
-    axes = draws(coating_cycle({"(a) small": small, "(b) large": large})).axes
-    for panel, yield_stress in zip(axes, (0.0, 0.02), strict=True):
-        triangles = [line.get_xydata() for line in panel.lines if line.get_label() == "_slope"]
-        slopes = [(corner[1] - start[1]) / (corner[0] - start[0]) for start, _, corner in triangles]
-        assert slopes == pytest.approx([2.0, 0.4])
-        (mark,) = [line for line in panel.lines if line.get_marker() == "v"]
-        assert mark.get_xdata() == pytest.approx([(2.0 * 0.03 - yield_stress) / 2.5])
+    _, elastic, worn = ([bar.get_height() for bar in bars] for bars in heights.containers)
+    np.testing.assert_allclose(worn, 1e6 * SCENE.wear)  # μm
+    np.testing.assert_allclose(elastic, 1e6 * (SCENE.shortening - SCENE.wear), atol=1e-9)
 
 
 def tower(n: int) -> tuple[np.ndarray, np.ndarray]:
