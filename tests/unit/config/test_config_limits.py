@@ -75,7 +75,6 @@ BORDERS = [
     ({"blade.mesh": {"chordwise": 50, "thickness": 10, "spanwise": 2}}, "blade.mesh.spanwise", 40, 41),
     ({"blade.mesh": {"chordwise": 9, "thickness": 1, "spanwise": 2}}, "blade.mesh.chordwise", 7, 6),
     *(({}, "results", "own", name) for name in ("..", "/tmp", "", "$(touch x)", "src", "README.md/runs")),
-    *(({}, "speeds.stop", 0.4, no_number) for no_number in ("fast", None, [0.4], True, math.inf)),
 ]
 SUMS = ("speeds", "blade.mesh:", "coatings[0]:", "rotor.blades = 36:")
 """What is named where several keys together are too much."""

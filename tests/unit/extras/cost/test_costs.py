@@ -1,6 +1,5 @@
 import re
 
-import pandas as pd
 import pytest
 from study_fixtures import changed
 
@@ -8,7 +7,7 @@ from bladerub.config.read import read
 from bladerub.extras import inventory
 from bladerub.extras.cores import Costs, costs_of
 from bladerub.extras.cost.forecast import forecast
-from bladerub.extras.cost.jobs import COLUMNS, cost, table
+from bladerub.extras.cost.jobs import COLUMNS, table
 from bladerub.extras.job_times import GROWING, SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION
 
 RECORD = (
@@ -17,7 +16,7 @@ RECORD = (
 )
 
 
-def test_a_row_a_job_and_bars_in_minutes_and_megabytes(tmp_path):
+def test_a_row_a_job(tmp_path):
     (tmp_path / "coating").mkdir()
     for name, s, memory, cpu in (
         ("blade.tsv", 20.0, 480.0, 15.0),
@@ -37,10 +36,6 @@ def test_a_row_a_job_and_bars_in_minutes_and_megabytes(tmp_path):
     assert "somebody_elses" in set(table(tmp_path, ["somebody_elses"]).stage)
     (tmp_path / "blade.tsv").write_text("s\th:m:s\tmax")
     assert sorted(table(tmp_path).rule) == ["coating", "coating", "fig05_casing", "fig08_spectrum_soft"]
-    of_stages = {"jobs": [1, 57], "cpu_s": [60.0, 540.0], "share": [0.1, 0.9], "memory_mb": [480.0, 190.0]}
-    time, memory = cost(pd.DataFrame(of_stages, pd.Index(["blade", "rubs"], name="stage"))).axes
-    assert [bar.get_width() for bar in time.patches] == [1.0, 9.0]
-    assert [bar.get_width() for bar in memory.patches] == [480.0, 190.0]
 
 
 JOBS = [(rule, f"2nd_E{E}_K0.5_theta0") for E in (1, 2) for rule in ("coating", "map", "ensemble")]
@@ -63,14 +58,10 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatc
     numbers = re.findall(r"\d+", line.replace(",", ""))
     assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
     assert costs.further["ensemble"][JOBS[0][1]] > 0
-    assert forecast(study, JOBS[:1]).startswith(
-        "60 of 200 runs of the study are to be computed; 1 job, about"
-    )
-    other = forecast(study, [("coating", "2nd_E3_K0.5_theta0")])
-    assert "missing, and not asked for, and those of 1 coating beside it are asked for" in other
+    assert forecast(study, JOBS[:1]).startswith("60 of 200 runs of the study are to be computed; 1 job, ")
+    assert "those of 1 coating beside it" in forecast(study, [("coating", "2nd_E3_K0.5_theta0")])
     chart = forecast(study, [("chart_column", None)], simulating={"chart_column", "coating"})
     assert chart.startswith("120 of 200 runs of the study are missing, and not")
-    assert chart.endswith(", without the simulations of chart_column")
     members = tmp_path / "runs" / JOBS[0][1] / "ensemble" / "manifest.tsv"
     members.parent.mkdir(parents=True)
     members.touch()
