@@ -1,7 +1,4 @@
-"""Bad configs by the real workflow: one line that names the culprit, exit code 2, nothing written.
-
-One of a kind; tests/unit/config tries the rules of the config, tests/unit/cli bad command lines.
-"""
+"""Bad configs by the real workflow, one of a kind: a line with the culprit, exit code 2, nothing written."""
 
 import re
 from itertools import pairwise

@@ -12,7 +12,6 @@ TARGET = f"results/maps/{COATING}.h5"
 
 @pytest.fixture
 def mount(workspace):
-    """Give the results folder a disk of its own."""
     results = workspace.folder / "results"
     results.mkdir()
 

@@ -42,7 +42,6 @@ def write(workspace, name, plan):
 
 @pytest.fixture
 def planned(copied_study):
-    """The tiny study, with small plans."""
     write(copied_study, "robustness", ROBUSTNESS)
     write(copied_study, "identification", IDENTIFICATION)
     return copied_study

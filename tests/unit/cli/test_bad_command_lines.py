@@ -35,7 +35,6 @@ COMMANDS = {
 
 @pytest.fixture(scope="module")
 def folder(folder):
-    """Here are the files that `COMMANDS` name."""
     (folder / "text").write_text("mass = 1\n")
     rigid = "coatings: [{casing: 2nd, coating: rigid, friction: [0]}]\nanalysis: {histories: []}\n"
     (folder / "rigid.yaml").write_text(rigid)

@@ -12,7 +12,6 @@ STUDY = load(ROOT / "config" / "config.yaml")
 
 
 def all_keys(key, path="", is_said=True):
-    """Yield the path of each key, itself, and whether something is said of it."""
     yield path, key, is_said
     for name, inner in key.fields().items():
         yield from all_keys(inner, f"{path}.{name}" if path else name, bool(inner.description))

@@ -38,7 +38,6 @@ PEAKS = pd.DataFrame(
 
 
 def second(axes, along):
-    """Limits of the second scale along "x" or "y"."""
     axes.figure.canvas.draw()
     (found,) = [child for child in axes.child_axes if getattr(child, f"get_{along}label")()]
     return getattr(found, f"get_{along}lim")()

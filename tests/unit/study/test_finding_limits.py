@@ -24,8 +24,6 @@ DIVERGENT = {"divergent": True, "status": "unbounded", "growth_low": -0.5}
 
 @pytest.fixture
 def evidence(config):
-    """Evidence of what a test is about, and of nothing else."""
-
     def make(maps=(), **tables):
         empty = {
             "peaks": pd.DataFrame(columns=peaks.COLUMNS),
@@ -62,7 +60,6 @@ def either_side(yes, partly):
 
 
 def peak_rows(*rows):
-    """Rows of the table of peaks: case, order, f_peak and amplitude."""
     return pd.DataFrame(
         [(c.casing, c.E, c.K, c.theta, order, f, amplitude, c.law) for c, order, f, amplitude in rows],
         columns=peaks.COLUMNS,

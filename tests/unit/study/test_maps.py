@@ -102,10 +102,7 @@ SPEEDS = [0.1, 0.19, 0.3]
 
 @pytest.fixture
 def folder(tmp_path, config, case, make_result, write_run):
-    """Runs of one coating that vibrate and wear at orders 10, 6, 4; the manifest is not in order of speed.
-
-    The middle one was repeated for longer; of the last there is a longer one that the study has no use for.
-    """
+    """Runs that vibrate and wear at orders 10, 6, 4; the middle one, and in vain the last, are repeated."""
     rows = []
     for f_omega, order in zip(SPEEDS, (10, 6, 4), strict=True):
         result = make_result(order=order, complete=15 if order == 4 else None)

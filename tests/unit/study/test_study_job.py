@@ -107,7 +107,6 @@ def test_another_length_of_confirmation_repeats_only_what_grows(compute, study, 
 
 @pytest.fixture
 def quick(study, case):
-    """A study whose runs take a blink, and its plan."""
     study = changed(
         study.replaced("speeds.extra", []),
         contact={"elements": 200},

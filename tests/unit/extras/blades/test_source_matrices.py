@@ -46,7 +46,6 @@ def of_folder(config, folder):
 
 
 def edit(folder, name, change):
-    """Change a matrix of the folder."""
     path = folder / f"{name}.npz"
     sparse.save_npz(path, sparse.csc_array(change(sparse.load_npz(path))))
 

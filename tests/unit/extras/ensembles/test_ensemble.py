@@ -170,7 +170,6 @@ def test_a_band_is_that_of_the_closed_form_and_missing_draws_do_not_count():
 
 @pytest.fixture
 def maps(make_map):
-    """Two coatings, the second without an ensemble."""
     return [make_map(case, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, SPEEDS) for case in (CASE, OTHER)]
 
 

@@ -74,7 +74,6 @@ def test_neither_order_nor_numbering_changes_anything(blade, spec):
 
 
 def of_plain_model(blade, spec, row_of, row):
-    """Displacements by blade and element, and wear, in a model without a compiled loop."""
     one = row.blades[0]
     assert all(each.n_modes == one.n_modes for each in row.blades)
     histories, wear = contact_in_numpy.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
