@@ -8,7 +8,7 @@ import pytest
 import scipy.linalg
 from blade_parts import REDUCTION
 
-from bladerub.blade.accuracy import accuracy_table
+from bladerub.blade.accuracy import accuracy_table, doubts
 from bladerub.blade.build import build
 from bladerub.blade.built import write
 from bladerub.blade.files import accuracy_path, mesh_path
@@ -155,6 +155,20 @@ def test_files_hold_what_was_built(built, tmp_path):
     accuracy = pd.read_csv(accuracy_path(reduced_model))
     assert len(accuracy) == 3 * 4
     assert accuracy.f_fe[0] == pytest.approx(blade.f1_hz, rel=1e-9)
+
+
+@pytest.mark.extras
+@pytest.mark.parametrize(
+    ("eq2", "reduced", "nominal", "n_doubts"),
+    [(0.009, 0.015, None, 0), (0.039, 0.04, 2400.0, 1), (0.009, 0.009, 3000.0, 1)],
+)
+def test_each_doubt_of_frequencies_has_a_line(eq2, reduced, nominal, n_doubts):
+    """Of one mode of 100 Hz at rest, with these errors at one speed."""
+    f_omega = np.arange(5) / 10
+    f_fe, at = 100 * (1 + f_omega), f_omega == 0.3
+    columns = {"f_fe": f_fe, "f_fe_eq2": f_fe * (1 + eq2 * at), "f_rom": f_fe * (1 + reduced * at)}
+    table = pd.DataFrame({"f_omega": f_omega, "mode": 1, **columns, "relative_error": reduced * at})
+    assert len(doubts(table, nominal)) == n_doubts
 
 
 def test_nodes_follow_the_reduced_coordinates(built):
