@@ -11,7 +11,6 @@ from bladerub.study import grid, plan
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_spec
 from bladerub.study.plan import coating_plan, growth_key, longer_run, planned_run
-from bladerub.study.store import StoredRun
 
 
 @pytest.fixture
@@ -108,18 +107,3 @@ def test_every_setting_decides_which_runs_are_repeated_and_none_where_none_is(co
         assert growth_key(config.replaced(f"analysis.divergence.{name}", 2 * value)) != before
     off = config.replaced("analysis.divergence.confirmation_revolutions", 0)
     assert growth_key(off) == growth_key(off.replaced("analysis.divergence.growth", 0.5))
-
-
-@pytest.mark.extras
-@pytest.mark.parametrize(("history", "revolutions"), [(False, 20), (True, 3)])
-def test_a_stored_run_is_planned_again_from_what_it_says(config, case, spec, history, revolutions):
-    from bladerub.extras.export.recording import claimed_run
-
-    spec = dataclasses.replace(spec, revolutions=revolutions)
-    attributes = dataclasses.asdict(case) | {"f_omega": spec.f_omega, "revolutions": revolutions}
-    stored = StoredRun(attributes, {"radial_displacement": None} if history else {})
-    claimed = claimed_run(config, "mine.h5", stored)
-    config = config.replaced("analysis.spectrum_revolutions", min(10, revolutions))
-    assert claimed == planned_run(config, spec, "mine.h5", history)
-    with pytest.raises(KeyError):
-        claimed_run(config, "mine.h5", StoredRun(attributes | {"casing": "unknown"}, {}))

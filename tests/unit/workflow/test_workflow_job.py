@@ -14,7 +14,6 @@ from bladerub.io import tables
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import ROOT
 from bladerub.plots import style
-from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.workflow import invocation, outputs
 
 SCRIPT = """
@@ -79,22 +78,6 @@ def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need(
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
-
-
-@pytest.mark.parametrize(
-    ("name", "size"), [("0.1.h5", None), ("confirmation/0.2.h5", 9), ("confirmation/0.2.h5", 30)]
-)
-def test_a_run_that_is_missing_or_cut_short_is_a_loss(tmp_path, name, size):
-    manifest, run = tmp_path / "manifest.tsv", tmp_path / name
-    (tmp_path / "confirmation").mkdir()
-    for file, length in (("0.1.h5", 10), ("0.2.h5", 20), ("confirmation/0.2.h5", 30)):
-        (tmp_path / file).write_bytes(bytes(length))
-    rows = [("0.1.h5", 0.1, "a", "completed", 10), ("0.2.h5", 0.2, "b", "completed", 20, "c", 30)]
-    write_manifest(manifest, [ManifestRow(*row) for row in rows])
-    run.unlink() if size is None else run.write_bytes(bytes(size))
-    loss = invocation.loss(manifest)
-    assert loss is None if size == 30 else str(run) in loss
-    assert invocation.loss(manifest.with_name("none.tsv")) is None
 
 
 def test_the_rules_do_not_import_the_compiler():
