@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from test_rotor_rules import GROUP
+from test_variations import GROUP
 
 pytestmark = pytest.mark.nightly
 

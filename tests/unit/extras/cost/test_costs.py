@@ -3,7 +3,6 @@ import re
 import pytest
 from study_fixtures import changed
 
-from bladerub.config.read import read
 from bladerub.extras import inventory
 from bladerub.extras.cores import Costs, costs_of
 from bladerub.extras.cost.forecast import forecast
@@ -76,11 +75,3 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatc
 def test_a_job_larger_than_the_share_of_a_core_has_more_threads(cost, cores, threads):
     costs = Costs({"this": cost}, {"others": {"that": 100 - cost}})
     assert costs.threads("coating", "this", cores) == threads
-
-
-def test_the_study_begins_with_the_coating_of_fig_6_the_rigid_casing_and_the_stiffest_coating():
-    """The largest ensembles and the slowest runs: either would otherwise end long after all else."""
-    costs = costs_of(read("config/config.yaml"))
-    *first, third = sorted(costs.runs, key=lambda coating: -costs.priority(coating))[:3]
-    assert first == ["2nd5nd_E11_K0.5_theta0", "2nd_rigid_mu0"]
-    assert third.startswith("2nd_E20_")
