@@ -1,7 +1,6 @@
-"""What all tests have in common.
+"""What all tests have in common, and one thread of BLAS in them and in what they start.
 
-One thread of BLAS in the tests, and in what they start: the matrices are small and pytest has a process for
-each core, so that more threads would wait for each other. Set before NumPy is imported;
+The matrices are small and pytest has a process for each core. Set before NumPy is imported;
 `tests/workflow/test_same_bits.py` tries other numbers.
 """
 

@@ -104,7 +104,6 @@ def _exponential(blade, spec, n_modes, coating):
 
 
 def _implicit_forces(coating, time, u, compliance, guess):
-    """Find the forces that the coating answers to the displacement they cause."""
     if not coating.contact(time, u).any():
         return np.zeros(len(u))
 

@@ -17,7 +17,6 @@ analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """Stands for the repository, with a config of a coarse blade."""
     folder = tmp_path_factory.mktemp("repository")
     (folder / "small.yaml").write_text(COARSE)
     return folder
@@ -65,13 +64,11 @@ def refusal(command):
 
 @pytest.fixture
 def at_home(folder, monkeypatch):
-    """Let `folder` be the repository."""
     monkeypatch.setattr(inputs, "study_folder", lambda: folder)
 
 
 @pytest.fixture
 def six_runs(folder, at_home):
-    """Options for a study of six runs."""
     (folder / "six.yaml").write_text(COARSE + SHORT)
     return ["--config", folder / "six.yaml"]
 

@@ -173,8 +173,6 @@ def simulated(solve_by, make_result, growing, repeated):
 
 @pytest.fixture
 def write_run(tmp_path, spec, case, config, make_result):
-    """Write a run of the study to a file, by default what `make_result` makes, and return the path."""
-
     def write(name="0.1900.h5", key="key", result=None, history=False, spec=spec, case=case, **made):
         result = result or make_result(**made)
         stored = store.stored_run(case, spec, result, key, config.analysis, history)

@@ -77,10 +77,7 @@ def test_every_name_of_the_package_exists():
 
 
 def definition(name):
-    """Return the text of a file of the package and what a dotted name stands for in it, if anything.
-
-    That is its module, or what is defined there: a field of a class as well.
-    """
+    """Return the text of a file of the package and the node of a dotted name in it, a field included."""
     path, parts = ROOT / "src", name.split(".")
     while parts and (path / parts[0]).is_dir():
         path /= parts.pop(0)

@@ -1,7 +1,6 @@
 """A run that ends in its first revolution, or a blade that never touches, leaves all other numbers there.
 
-A coating of each kind in turn, and all of a study, is unbounded at every speed, or about one of its peaks, or
-has no contact at all. Every table and figure is made of it, without a warning.
+Of a coating of each kind in turn, and of a whole study, every table and figure is made, without a warning.
 """
 
 from dataclasses import replace
@@ -39,7 +38,6 @@ PAGE = {"max_frequency": 2.0, "amplitude_range": RANGE, "growth_revolutions": 10
 
 
 def unbounded(coating, where):
-    """Let the runs at some speeds end in their first revolution."""
     names = ("spectrum_amplitude", "revolution_amplitude", "revolution_peak")
     changed = {name: getattr(coating, name).copy() for name in names}
     for name in names:
@@ -62,7 +60,6 @@ HOSTILE = {
 
 @pytest.fixture
 def angle():
-    """Few elements, since nothing here depends on their number."""
     return (np.arange(200) + 0.5) * (2 * np.pi / 200)
 
 
@@ -86,7 +83,6 @@ def accuracy(tmp_path):
 
 
 def judged(study, maps, accuracy):
-    """Make all tables of the study; return the findings by claim."""
     made = {"peaks": peaks.table(study, maps), "divergence": divergence.table(study, maps)}
     rom_accuracy = pd.read_csv(accuracy)
     return made, findings.judge(Evidence(study, made | {"rom_accuracy": rom_accuracy}, maps)).set_index("id")

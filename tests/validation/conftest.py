@@ -11,13 +11,11 @@ from tests.unit.stand_in import change  # noqa: F401 (fixture)
 
 @pytest.fixture(scope="session")
 def paper_config():
-    """The paper's study."""
     return read(ROOT / "config" / "config.yaml")
 
 
 @pytest.fixture(scope="session")
 def built(paper_config):
-    """The default blade as it is built for the paper's study."""
     return build(paper_config)
 
 

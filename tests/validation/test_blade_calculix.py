@@ -1,11 +1,9 @@
-"""The blade against CalculiX, an independent finite element program, at rest and rotating.
+"""The blade against CalculiX (`ccx`, if on the path), an independent finite element program, also rotating.
 
-The decks are those of `bladerub.extras.export.blade_files`. The tests need the solver `ccx` on the path.
-
-For the stress a static step is added. CalculiX finds the displacement of the blade with C3D20 elements, of 27
-integration points each, and the stress at the nodes. Expected: the largest stress to 1 % outside of the
-tenths of the span at root and tip; at each node within 1 % of it from 15 to 80 % of the span. At the edges of
-the root, where it depends on the mesh, the largest stress is 5 % above that of CalculiX.
+For the stress a static step is added to the decks of `extras.export.blade_files`, with C3D20 elements
+of 27 integration points each. Expected: the largest stress to 1 % outside of the tenths of the span at root
+and tip; at each node within 1 % of it from 15 to 80 % of the span. At the edges of the root, where it depends
+on the mesh, the largest stress is 5 % above that of CalculiX.
 """
 
 import shutil
@@ -49,7 +47,6 @@ def frequencies(dat):
 
 
 def largest_differences(config, folder):
-    """Of the first eight frequencies from those of CalculiX, at each speed."""
     built = build(config)
     body = (built.mesh.mesh.points, built.mesh.mesh.cells, built.mesh.root, MATERIAL)
     decks = write_decks(folder, SPEEDS, built.reduced.f1_hz, *body)
@@ -78,7 +75,6 @@ def test_frequencies_of_tetrahedra_agree(config, tmp_path):
 
 
 def deck_of(mesh, omega):
-    """Input of CalculiX up to its last step, that of the frequencies."""
     text = deck(mesh.mesh.points, mesh.mesh.cells, mesh.root, MATERIAL, omega)
     return text[: text.rindex("*STEP")]
 

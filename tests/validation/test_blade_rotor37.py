@@ -1,13 +1,9 @@
-"""NASA Rotor 37: its blade from the published table, and its reference numbers.
+"""NASA Rotor 37: the solid is that of the published table (``rotor37_sections.dat``); reference numbers.
 
-The sections lie on surfaces that are no cylinders, with round edges. The table and its origin:
-``rotor37_sections.dat``. It has no frequencies; what can be checked is that the solid is that of the table.
-
-The reference numbers are computed again on a coarser mesh, and with another material. The published first
-frequency: 856 to 859 Hz (Piollet, Nyssen and Batailly, J. Sound Vib. 460, 2019, 114878, and the works that
-use their blade). Direct contact is compared with NLstep (Monjaraz-Tec, Gross and Krack, Comput. Struct. 260
-(2022) 106698), for which the environment variable BLADERUB_NLSTEP must name the folder of its function, and
-GNU Octave must be installed.
+The numbers are computed again on a coarser mesh, and with another material. The published first frequency:
+856 to 859 Hz (Piollet, Nyssen and Batailly, J. Sound Vib. 460, 2019, 114878, and the works that use their
+blade). Direct contact is compared with NLstep (Monjaraz-Tec, Gross and Krack, Comput. Struct. 260 (2022)
+106698) by GNU Octave, if BLADERUB_NLSTEP names the folder of its function.
 """
 
 from dataclasses import replace

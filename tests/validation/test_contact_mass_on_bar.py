@@ -86,10 +86,7 @@ def test_exponential_scheme_does_not_damp_contact(kappa):
 
 @pytest.mark.parametrize("hardening", [1e12, 0.5])
 def test_errors_of_a_bounce_average_out(hardening):
-    """Errors of the speed after a bounce vanish in the mean over the phase of the first contact.
-
-    A bar that yields at once and hardens by K gives back the part ``E_T / E = K / (E + K)`` of the energy.
-    """
+    """In the mean over the phase of the first contact; plastic bars return ``K / (E + K)`` of the energy."""
     # κ = 0.13, and a spring too weak to matter
     rule, contact, mode = mass_on_bar(M, 4 * 0.13 * M / H**2, exponential)
     gap = np.ones((N, 8))

@@ -14,7 +14,6 @@ STEPS = 400
 
 @pytest.fixture(scope="module", params=[5, 12, pytest.param(19, marks=pytest.mark.nightly)])
 def wide(request, coarse_config):
-    """The default blade with so many interface nodes, on another coarse mesh."""
     other = coarse_config.replaced("blade.mesh", Mesh(chordwise=20, thickness=2, spanwise=4))
     nodes = other.replaced("reduction.interface_nodes", request.param)
     return build(nodes.replaced("reduction.accuracy_modes", 4)).reduced

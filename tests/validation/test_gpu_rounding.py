@@ -1,7 +1,6 @@
-"""What the loops round off: that of the GPU, in its emulation, and that of the processor.
+"""What the loops of the GPU, emulated, and of the processor round off in one revolution.
 
-The emulation computes once more with a mantissa of 64 bits, eleven more than a double has. What a loop
-differs by from that is its rounding. One revolution leaves it little time to grow.
+They are compared with the emulation with a mantissa of 64 bits, eleven more than a double has.
 """
 
 import dataclasses

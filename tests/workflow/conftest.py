@@ -22,10 +22,9 @@ AT_WORK_MEANWHILE = (
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark every test of this folder as slow, and put them first: each runs the real workflow.
+    """Mark every test of this folder as slow, and put first what makes the study that all others of it copy.
 
-    Files go to pytest's processes in this order. The first makes the study that all others of this folder
-    copy; long ones without it come next. Short ones at the end let all processes end together.
+    Files go to pytest's processes in this order: long ones without the study come next, short ones last.
     """
     for item in items:
         if FOLDER in item.path.parents:
@@ -43,22 +42,19 @@ def _place(item: pytest.Item) -> int:
 
 @pytest.fixture
 def tiny() -> dict[str, Any]:
-    """The overlay of the tiny study, to change at will."""
     return copy.deepcopy(TINY)
 
 
 @pytest.fixture
 def workspace(tmp_path: Path) -> Workspace:
-    """Nothing has been computed here yet."""
     return Workspace.at(tmp_path)
 
 
 @pytest.fixture(scope="session")
 def study(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workspace:
-    """Here the tiny study is complete; tests leave it as it is.
+    """Here the tiny study is complete; tests leave it as it is. One process makes it, each takes a copy.
 
-    The first of pytest's processes makes it, and each takes a copy, since a dry-run writes to its folder.
-    Machine code belongs to the path of its sources, so all use those of the repository, as other tests do.
+    Machine code belongs to the path of its sources, so all use those of the repository.
     """
     base = tmp_path_factory.getbasetemp()
     original = (base if worker_id == "master" else base.parent) / "study"
@@ -72,5 +68,4 @@ def study(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workspace
 
 @pytest.fixture
 def copied_study(study: Workspace, tmp_path: Path) -> Workspace:
-    """A copy of the complete study that a test may change."""
     return study.copy(tmp_path / "copy")

@@ -14,7 +14,6 @@ COMMAND = f"results/runs/{COATING}/manifest.tsv", "--cores", "1"
 
 @pytest.fixture
 def begin():
-    """Start the workflow in a workspace and leave it at work."""
     processes = []
 
     def started(workspace):
@@ -28,7 +27,6 @@ def begin():
 
 
 def wait_until(condition, *processes):
-    """Wait for `condition`, while `processes` must stay at work."""
     for number in range(600):
         if condition():
             return
@@ -46,7 +44,6 @@ def waits(log):
 
 
 def has_waiters(path, number):
-    """Whether that many processes wait for the lock file `path`."""
     waiting = f":{path.stat().st_ino} "
     with open("/proc/locks") as locks:
         return sum(waiting in line and "->" in line for line in locks) == number

@@ -53,7 +53,6 @@ FILES = {
 
 
 def call(study, command, **environment):
-    """Give a command with the config of the study that was last built there."""
     name, *arguments = command
     if name == "snakemake":
         arguments += ["--configfile", "overlay.yaml"]

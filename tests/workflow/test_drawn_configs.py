@@ -22,7 +22,6 @@ HIGH_SPEEDS["speeds"]["extra"] = LOW_SPEEDS["speeds"]["extra"] = []
 
 
 def numbers(value, path=()):
-    """Yield the path of each number of the config, with the number itself."""
     if isinstance(value, dict):
         for name, inner in value.items():
             yield from numbers(inner, (*path, name))
@@ -32,7 +31,6 @@ def numbers(value, path=()):
 
 @st.composite
 def changed_numbers(draw):
-    """Up to three numbers of the config with others near their own."""
     overlay = {}
     for path, value in draw(st.lists(st.sampled_from(list(numbers(load(STUDY)))), max_size=3)):
         number = value * draw(st.sampled_from([0, 0.5, 0.9, 1.25, 2]))

@@ -22,13 +22,11 @@ class Explorer:
         self.driver, self.path = driver, path
 
     def open(self, link=""):
-        """Open the page anew from its file, at `link`, and wait until it is drawn."""
         self.driver.get("about:blank")
         self.driver.get(self.path.as_uri() + link)
         return self.wait()
 
     def wait(self):
-        """Wait until everything chosen is drawn, and the address holds it."""
         from selenium.webdriver.support.ui import WebDriverWait
 
         settled = (
@@ -64,7 +62,6 @@ class Explorer:
         return self.wait()
 
     def drawn(self, name, key, trace=0):
-        """Values of one trace of a picture."""
         values = self.asked(f"Array.from(document.getElementById('{name}').data[{trace}].{key})")
         return np.array(values, dtype=float)
 

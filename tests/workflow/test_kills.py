@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from test_rotor_rules import GROUP
+from test_variations import GROUP
 
 pytestmark = pytest.mark.nightly
 
@@ -27,10 +27,7 @@ ROTOR = {"seed": 1, "groups": {"some": GROUP | ROWS}}
 
 
 def jobs_of(process):
-    """Number of each process that executes a script of a rule.
-
-    A child of it, which is about to become another program, is not one: the job would survive it.
-    """
+    """Number of each process that executes a script of a rule, not of a child about to be another program."""
     jobs, parents = set(), {}
     for folder in Path("/proc").glob("[0-9]*"):
         with suppress(FileNotFoundError, ProcessLookupError):
@@ -61,7 +58,6 @@ def kill(way, process, draw):
 
 
 def unlike(here, there):
-    """Files of the results here that are not the same there."""
     paths = (path.relative_to(here.results).as_posix() for path in here.results.rglob("*") if path.is_file())
     names = [name for name in paths if not UNEQUAL.match(name)]
     _, unequal, missing = filecmp.cmpfiles(here.results, there.results, names, shallow=False)
@@ -69,10 +65,7 @@ def unlike(here, there):
 
 
 def torment(workspace, target, ways, seconds, seed):
-    """Kill a study, which takes `seconds` undisturbed, in each of the `ways`, and let it come to its end.
-
-    Where it ends before a kill, it is begun again.
-    """
+    """Kill a study, of so many `seconds`, in each of the `ways`, begun again if it ended; let it end."""
     draw, left, spent, known = random.Random(seed), list(ways), 0.0, {}
     while left:
         process, began = workspace.begin("-j2", target, start_new_session=True), time.monotonic()

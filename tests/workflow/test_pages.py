@@ -1,7 +1,6 @@
 """The commands of the README and of the tutorials do what these say; those of the guides plan jobs.
 
-They are run as they are written, in a copy of the repository whose studies are tiny, and in the environment
-of this test: `.ci/run` makes it by the README's own command.
+They run as written, in a copy of the repository whose studies are tiny, in the environment of this test.
 """
 
 import re
@@ -23,13 +22,11 @@ GUIDES = [ROOT / "docs" / "laws.md", *sorted((ROOT / "docs" / "how-to").glob("*.
 
 
 def blocks(page: str | Path) -> list[str]:
-    """Return the blocks of commands of a page, without installation and tests."""
     text = INSTALL.sub("", (ROOT / page).read_text(encoding="utf-8"))
     return [block for block in BLOCK.findall(text) if block.strip()]
 
 
 def run(page: str | Path, workspace: Workspace) -> str:
-    """Run all commands of a page in one shell; return what they print."""
     shell = ("/bin/bash", "-euo", "pipefail", "-c")
     return workspace.said(*shell, "\n".join(blocks(page)), MPLBACKEND="agg")
 
@@ -58,7 +55,6 @@ def test_the_examples_of_the_readme(clone: Workspace):
 
 
 def run_python(page: str, clone: Workspace) -> str:
-    """Run the one example in Python of a page; return what it prints."""
     (example,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(), re.M | re.S)
     return clone.said("python", "-W", "error", "-c", example, MPLBACKEND="agg")
 

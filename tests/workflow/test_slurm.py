@@ -39,7 +39,6 @@ def datasets(path):
 
 
 def running_job(kind):
-    """Number of the running job of SLURM that a group of the profile has become."""
     command = ["squeue", "--noheader", "--states=RUNNING", "--format=%i %k"]
     done = subprocess.run(command, capture_output=True, text=True)
     return next(line.split()[0] for line in done.stdout.splitlines() if f"rule_{kind}" in line)

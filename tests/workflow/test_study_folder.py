@@ -1,4 +1,4 @@
-"""A study of one's own is one folder, with rules, script, caption and columns; those that are there."""
+"""A study of one's own: one folder, a repository or module, a blade from a file; and those that are there."""
 
 import json
 import re
@@ -7,8 +7,15 @@ import zipfile
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
+from workspace import ROOT, Workspace
 
+from bladerub.blade.build import meshed_blade
+from bladerub.config.read import read
+from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io import hdf5, tables
+from bladerub.settings.blade import Mesh
+from bladerub.study.store import read_run
 
 FILES = {
     "rules.smk": """
@@ -142,3 +149,113 @@ def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_study
     (cells / lost).unlink()
     copied_study.build(charted, "results/chart/columns/2nd_E2_theta0.tsv")
     assert {name for name in before if (cells / name).stat().st_mtime_ns != before[name]} == {lost}
+
+
+OWN_RULE = """
+
+rule own:
+    input:
+        rules.coating.output.map.format(coating="2nd_E1.1_K0.5_theta0"),
+    output:
+        "results/own.txt",
+    shell:
+        "du -b {input} > {output}"
+"""
+
+
+def test_it_computes_its_own_config_and_takes_rules_of_ones_own(tmp_path, study, tiny):
+    Workspace(tmp_path, study.sources).said("bladerub", "new", "own")
+    own = Workspace(tmp_path / "own", study.sources)
+    (own.folder / "small.yaml").write_text(yaml.safe_dump(tiny))
+    with (own.folder / "Snakefile").open("a") as snakefile:
+        snakefile.write(OWN_RULE)
+    own.said("snakemake", "own", "-j2", "--configfile", "small.yaml")
+    assert "2nd_E1.1_K0.5_theta0.h5" in (own.results / "own.txt").read_text()
+    counts = Workspace(own.folder / "config", study.sources).said("bladerub", "status", "--json")
+    assert json.loads(counts)["coatings"]["2nd_E1.1_K0.5_theta0"]["missing"] == 0
+    assert "histograms" in own.said("snakemake", "-n", "--quiet", "rules", "--configfile", "small.yaml")
+
+
+def test_the_study_of_the_guide_for_contributors_is_drawn(copied_study, tiny):
+    guide = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    for path, text in re.findall(r"`(studies/deepest/\S+)`:\n\n```\w+\n(.*?)```", guide, re.S):
+        (copied_study.folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (copied_study.folder / path).write_text(text, encoding="utf-8")
+    copied_study.sources = copied_study.folder / "src"  # studies are those beside them
+    copied_study.build(tiny, "deepest")
+    table = tables.read(copied_study.results / "tables" / "deepest.csv", ["f_omega", "max_wear"])
+    assert (table.max_wear > 0).any()
+    assert (copied_study.results / "figures" / "deepest.pdf").exists()
+
+
+MODULE = """
+configfile: "config/config.yaml"
+
+
+module rub:
+    snakefile:
+        {snakefile!r}
+    config:
+        config["rub"]
+
+
+use rule * from rub as rub_*
+"""
+
+
+def test_the_config_of_a_module_statement_is_that_of_the_study(tmp_path, study, tiny):
+    tiny["coatings"] = [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.0]}]
+    (tmp_path / "Snakefile").write_text(MODULE.format(snakefile=str(ROOT / "Snakefile")))
+    (tmp_path / "config").mkdir()
+    content = {"samples": ["a"], "rub": {**tiny, "results": "results/rub"}}
+    (tmp_path / "config" / "config.yaml").write_text(yaml.safe_dump(content))
+    folder = tmp_path / "results" / "rub" / "runs" / "2nd_E3_K0.5_theta0"
+    target = f"{folder.relative_to(tmp_path)}/manifest.tsv"
+    workspace = Workspace(tmp_path, study.sources)
+    plan = workspace.call("snakemake", "-n", target).stderr
+    assert re.search(r"(\d+) of \1 runs of the study are to be computed", plan), plan[-500:]
+    workspace.said("snakemake", "-j2", target)
+    assert read_run(folder / "0.1500.h5").attributes["revolutions"] == tiny["solver"]["revolutions"]
+    assert [path.parent for path in folder.parent.glob("*/manifest.tsv")] == [folder]
+
+
+PICTURE = "results/figures/fig01_blade.png"
+
+
+@pytest.fixture
+def foreign(workspace, tiny):
+    """Overlay of a study whose blade is the default one, in mm."""
+    blade = read(workspace.folder / "config" / "config.yaml").blade
+    mesh = meshed_blade(blade.replaced("mesh", Mesh(chordwise=7, thickness=1, spanwise=4))).mesh.mesh
+    write_mesh_file(workspace.folder / "meshes" / "blade.msh", 1e3 * mesh.points, mesh.cells, {})
+    tiny["blade"]["source"] = {"file": "meshes/blade.msh", "unit": "mm"}
+    return tiny
+
+
+def test_a_blade_from_a_file_is_made_and_drawn_and_made_anew_with_the_file(workspace, foreign):
+    workspace.build(foreign, PICTURE)
+    mesh, _ = hdf5.read(workspace.folder / "results" / "blade" / "mesh.h5")
+    assert mesh["cells"].shape == (7 * 4, 20)
+    assert workspace.plan(foreign, PICTURE) == {}
+    file = workspace.folder / "meshes" / "blade.msh"
+    file.write_bytes(file.read_bytes() + b"$Comments\nlonger\n$EndComments\n")
+    assert workspace.plan(foreign, PICTURE) == {"blade": 1, "fig01_blade": 1}
+
+
+def test_a_study_of_it_draws_wear_maps_casings_and_on_those_of_its_own_spectra(workspace, foreign):
+    casing = read(workspace.folder / "config" / "config.yaml").casings["2nd"].plain()
+    foreign["casings"] = {"own": casing | {"nodal_diameters": [3]}}
+    entry = {"E": [2, 5], "K": [0.5], "theta": [0.0]}
+    foreign["coatings"] = [{"casing": name} | entry for name in ("2nd", "own")]
+    foreign["coatings"] += [{"casing": "own", "coating": "rigid", "friction": [0.0]}]
+    plan = workspace.plan(foreign)
+    assert (plan["coating"], plan["spectrum"], plan["casing"]) == (5, 5, 2)
+    assert plan["wear_map"] == 4  # the rigid casing does not wear
+    assert not {"findings", "margins"} & plan.keys()  # the paper speaks of another blade
+
+
+def test_a_broken_file_ends_the_study_with_one_line(workspace, foreign):
+    (workspace.folder / "meshes" / "blade.msh").write_text("$MeshFormat\n")
+    said = workspace.failure(PICTURE, "--cores", "1", config=foreign)
+    assert said.count("meshes/blade.msh: does not end with") == 1
+    assert not (workspace.folder / "results" / "blade").exists()

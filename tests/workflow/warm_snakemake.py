@@ -1,9 +1,8 @@
 """Serves calls of snakemake from a process that has its imports done, most of the time of a call.
 
-Each line of standard input asks for one call, in JSON: ``folder``, ``environment``, ``arguments``, and the
-files for ``stdout`` and ``stderr``. A fork answers it; the line written back is its exit code. The fork does
-what a fresh ``snakemake`` does after these imports. This package it imports itself, from the sources that the
-environment of the call names.
+Each line of standard input asks for one, in JSON (arguments of `_answer`). A fork answers it as a fresh
+``snakemake`` would, importing this package from the sources that the environment of the call names; the line
+written back is its exit code.
 """
 
 import gc
@@ -24,7 +23,6 @@ LONGEST = 600
 
 
 def main() -> None:
-    """Serve until standard input ends."""
     for name in PACKAGES:
         import_module(name)
     if own := [name for name in sys.modules if name.partition(".")[0] == "bladerub"]:

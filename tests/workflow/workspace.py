@@ -41,8 +41,7 @@ TINY = {
 class Workspace:
     """A copy of what the workflow needs, and the commands that run there.
 
-    The package is imported from `sources`: of this copy, or the same of the repository, where the machine
-    code is that takes some seconds to make.
+    The package is imported from `sources`: of this copy, or of the repository, where its machine code is.
     """
 
     folder: Path
@@ -71,12 +70,10 @@ class Workspace:
 
     @property
     def environment(self) -> dict[str, str]:
-        """For commands that are to use `sources`."""
         return os.environ | {"PYTHONPATH": str(self.sources)}
 
     @property
     def results(self) -> Path:
-        """The folder of results."""
         return self.folder / "results"
 
     def runs(self, pattern: str = "**/[0-9]*.h5") -> dict[str, tuple[int, int]]:
@@ -106,13 +103,11 @@ class Workspace:
             return subprocess.CompletedProcess(command, code, stdout.read_text(), stderr.read_text())
 
     def call(self, program, *arguments, **environment) -> subprocess.CompletedProcess:
-        """Run a program of the environment in this copy."""
         streams = {"stdin": subprocess.DEVNULL, "capture_output": True, "encoding": "utf-8"}
         place = {"cwd": self.folder, "env": self.environment | environment}
         return subprocess.run([BIN / program, *arguments], timeout=600, errors="replace", **streams, **place)
 
     def said(self, program, *arguments, **environment) -> str:
-        """Run a program, which must succeed; return what it prints."""
         done = self.call(program, *arguments, **environment)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
@@ -125,7 +120,6 @@ class Workspace:
             return subprocess.Popen(command, cwd=self.folder, env=self.environment, **streams, **options)
 
     def dry_run(self, *arguments, config=None) -> str:
-        """Return what Snakemake says of its plan."""
         done = self.snakemake(*arguments, "--dry-run", config=config)
         assert done.returncode == 0, (arguments, done.stderr)
         return done.stdout + done.stderr
@@ -150,7 +144,6 @@ class Workspace:
         return {name: int(count) for name, count in re.findall(r"^(\w+)\s+(\d+)$", table, re.MULTILINE)}
 
     def build(self, config: dict[str, Any], *targets: str) -> None:
-        """Run the workflow; it must succeed."""
         done = self.snakemake(*targets, "--cores", "2", config=config)
         assert done.returncode == 0, done.stderr
 
@@ -163,7 +156,6 @@ class Workspace:
 
 @cache
 def _warm_snakemake() -> subprocess.Popen:
-    """Start the server of this process; it ends when its standard input does."""
     program = Path(__file__).with_name("warm_snakemake.py")
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     server = subprocess.Popen(

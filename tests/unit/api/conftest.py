@@ -6,7 +6,6 @@ import bladerub as br
 
 @pytest.fixture(scope="session")
 def small(tmp_path_factory):
-    """A folder with a config whose blade is coarse, and a cache for this blade."""
     folder = tmp_path_factory.mktemp("api")
     (folder / "small.yaml").write_text(COARSE + "results: results_of_no_workflow\n")
     return folder

@@ -19,7 +19,6 @@ def planned(study):
 
 @pytest.fixture(scope="module")
 def followed(blade, planned):
-    """A run that grows, is followed further, and whose stress is asked for."""
     return br.simulate(blade, planned, stress=True)
 
 

@@ -1,1 +1,1 @@
-from blade_fixtures import *  # noqa: F403 (fixtures)
+from blade_parts import *  # noqa: F403 (fixtures)

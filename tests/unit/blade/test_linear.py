@@ -11,7 +11,6 @@ from bladerub.blade.linear import PreconditionedCG, factorise, lowest_modes
 
 @pytest.fixture
 def pair():
-    """A symmetric positive stiffness and mass of a chain with random springs."""
     rng = np.random.default_rng(3)
     n = 60
     springs = rng.uniform(1, 5, n + 1)
@@ -61,7 +60,6 @@ def test_lowest_modes_agree_with_a_dense_solver(pair):
 
 @pytest.fixture
 def near(make_block):
-    """Stiffness and mass of a bar, factors of it, and a stiffness that is near."""
     bar = make_block(size=(0.02, 0.01, 0.3), counts=(1, 1, 6), origin=(0.01, 0.0, 0.3), clamp_bottom=True)
     u = np.random.default_rng(2).standard_normal(bar.free.size)
     rest, strained = bar.tangent(np.zeros_like(u)), bar.tangent(2e-6 * u)

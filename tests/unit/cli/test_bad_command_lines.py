@@ -11,22 +11,13 @@ from bladerub.blade.model import ReducedBlade, write_reduced_blade
 RUN = "run --casing 2nd --E 2 --K 0.5 --f 0.19"
 COMMANDS = {
     "run --casing 2dn --E 2 --K 1 --f 0.19": '"2dn": must be one of 2nd, 2nd5nd; did you mean 2nd?',
-    f"{RUN} --E soft": "argument --E: must be a number, or one with a unit: 'soft'",
     "run --casing 2nd --coating rigid --E 1GPa --f 1": '--E = "1GPa": goes with --coating abradable only',
     f"{RUN} --f 0.41": "--f = 0.41: must be at most reduction.f_omega_max = 0.4",
     "run --casing 2nd --E 2 --K 1 --rpm 9000 --config small.yaml": "--rpm = 0.7",
-    "run --casing 2nd --E 2 --K 1 --rpm -5": '--rpm = "-5 rpm": must be a number from 0.001',
-    "run --casing 2nd --E 2 --K 1 --rpm 5rpm": "--rpm: must be a number, without the unit rpm: '5rpm'",
     f"{RUN} --interference 6.5mm": "below the layer thickness, 0.006 m (6 mm), or the blade",
-    f"{RUN} --layer-thickness 0.05mm": "from 0.0001 (0.1 mm) to 0.1 (100 mm), in m",
-    f"{RUN} --interference 0,4mm": "with a unit: '0,4mm'; a decimal has a point",
-    f"{RUN} --blades 3 --frequency-scatter 50%": "must be at most 0.1 (10 %)",
-    "run --casing 2nd --E 2 --K 1 --f 9000U/min --config small.yaml": "(9000U/min): must be at most",
-    f"{RUN} --theta -90deg": '--theta = "-90deg": must be ',
     f"{RUN} --law-parameter viscosity=1 --law-parameter viscosity=2": "viscosity=2: must be there once",
     f"{RUN} --revolutions {10**30}": f"--revolutions = {10**30}: ",
     f"{RUN} --coupling 0.1": "--coupling = 0.1: goes with --blades only",
-    f"{RUN} --law viscoplastic": '--law = "viscoplastic": viscosity: missing',
     f"{RUN} --law-parameter viscosity": "--law-parameter = viscosity: must be NAME=VALUE",
     f"{RUN} --config pipe": "pipe: is not a regular file, must be a YAML file",
     f"{RUN} --output text/run.h5": "--output text/run.h5: cannot be written, ",
@@ -44,7 +35,6 @@ COMMANDS = {
 
 @pytest.fixture(scope="module")
 def folder(folder):
-    """Here are the files that `COMMANDS` name."""
     (folder / "text").write_text("mass = 1\n")
     rigid = "coatings: [{casing: 2nd, coating: rigid, friction: [0]}]\nanalysis: {histories: []}\n"
     (folder / "rigid.yaml").write_text(rigid)

@@ -1,7 +1,6 @@
 """Files with drawn damage: the command that reads them accepts them or says in a line what is wrong.
 
-BLADERUB_BROKEN_FILES=250 draws so many blades, and as many laws, curves and tables; each is read in a process
-of its own, whose signals are seen.
+BLADERUB_BROKEN_FILES=250 draws so many blades, and as many laws, curves and tables.
 """
 
 import os
@@ -71,7 +70,6 @@ def sound(tmp_path_factory):
 
 
 def damaged(content: bytes, random: np.random.Generator) -> bytes:
-    """Damage a file as disks, editors and other programs do."""
     lines, kind = content.splitlines(keepends=True), random.integers(6)
     at, other = random.integers(len(lines), size=2)
     start = random.integers(len(content))
@@ -113,10 +111,7 @@ def damage(path: Path, random: np.random.Generator) -> None:
 
 
 def tried(sound: Path, folder: Path, seed: int, name: str, command: str, *options: str) -> str | None:
-    """Damage a copy of a sound file and give the command that reads it; return its answer if it is bad.
-
-    The first of each kind is left sound, and must be accepted.
-    """
+    """Give the command that reads a damaged copy, the first of a kind sound; its answer if that is bad."""
     folder.mkdir()
     (folder / "study.yaml").write_text(STUDY.replace("gap.csv", str(folder / "gap.csv")))
     copy = shutil.copytree if (sound / name).is_dir() else shutil.copy

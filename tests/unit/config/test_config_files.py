@@ -64,7 +64,6 @@ def test_as_many_levels_and_characters_are_read_as_the_limits_say(folder):
 
 
 def laughs():
-    """Lists of ten of lists of ten, and so on."""
     lines = ["x0: &x0 [z, z]"]
     lines += [f"x{i + 1}: &x{i + 1} [{', '.join([f'*x{i}'] * 10)}]" for i in range(12)]
     return "\n".join(lines)

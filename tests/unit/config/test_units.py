@@ -92,31 +92,16 @@ def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
     ("setting", "words"),
     [
         ("speeds: {start: 2000 mm}", "is a length; must be a speed: rpm, Hz, rad/s"),
-        ("reduction: {f_omega_max: 80 kHz}", 'unknown unit "kHz", did you mean Hz?; must be a speed'),
-        ("contact: {modulus_unit: 600 N}", "is a force; must be a pressure: MPa, GPa"),
+        ("reduction: {f_omega_max: 80 kHz}", 'unknown unit "kHz", did you mean Hz?'),
         ("contact: {elements: 2000 %}", "is a share; must be a whole number without a unit"),
-        ("casings: {2nd: {amplitude: 1 rad}}", "is an angle; must be a length: mm"),
-        ("blade: {tip_cone: 12 mm}", "is a length; must be an angle: deg, rad, or a number in degrees"),
-        ("contact: {modulus_unit: 600 mPa}", 'unknown unit "mPa", did you mean MPa?; must be a pressure'),
-        ("contact: {damping_ratio: 0.23 dB}", 'unknown unit "dB"; must be a number, or %'),
-        ("contact: {clearance: {leading_edge: 30 MPa}}", "or a number in blade lengths"),
         ("contact: {law: {name: viscoplastic, viscosity: 1 mm}}", "must be a number in the unit"),
         ("coatings: [{casing: 2nd, E: [3.0e+8], K: [1], theta: [0]}]", 'write "300 MPa"'),
-        (
-            "coatings: [{casing: 2nd, E: [1,2 GPa], K: [1], theta: [0]}]",
-            "E = [1, 2 GPa]: must be all with a unit",
-        ),
+        ("coatings: [{casing: 2nd, E: [1,2 GPa], K: [1], theta: [0]}]", "must be all with a unit"),
         ('contact: {layer_thickness: "4,5 mm"}', "a decimal has a point"),
     ],
 )
 def test_a_wrong_unit_is_named_with_the_right_ones(study, problems, setting, words):
-    found = problems(setting, by=study)
-    assert any(words in problem.text for problem in found), found
-
-
-def test_a_number_that_is_hardly_above_what_is_allowed_is_no_speed_in_rpm(study, problems):
-    (problem,) = problems("speeds: {start: 5}", by=study)
-    assert "write" not in problem.text
+    assert any(words in problem.text for problem in problems(setting, by=study))
 
 
 @pytest.mark.extras(cases=r"law")

@@ -61,7 +61,6 @@ def test_reference_takes_a_step_of_its_scheme_whatever_that_of_the_run(blade, sp
 
 @pytest.fixture(scope="module")
 def turning_blade(blade):
-    """The blade with a tip that turns by some degrees for a millimetre along the casing."""
     slope = np.zeros((8, len(blade.mass)))
     for node in range(8):
         slope[node, 3 * node : 3 * node + 3] = -(20.0 + 3 * node) * blade.tangential_direction[node]

@@ -55,7 +55,6 @@ def test_friction_is_limited_by_what_all_nodes_together_take(blade, spec, change
 
 @pytest.fixture
 def uneven():
-    """The blade with nodes unevenly along the chord, and at an uneven angle."""
     angle = 2 * UNEVEN + 0.01 * np.sin(200 * UNEVEN)
     return made_blade(np.random.default_rng(7), 192.0, UNEVEN, angle, 0.65)
 

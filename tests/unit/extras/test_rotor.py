@@ -81,10 +81,8 @@ def test_rows_that_leave_the_limit_before_the_first_look_are_counted(config, mon
 
 
 def test_the_pattern_that_a_row_wears_is_looked_at_every_few_revolutions(config, blade):
-    followed, looks = (
-        Counter({Combination(CASE, 0.2, 2, 5e-5): 1}),
-        Patterns.model_construct(harmonic=2, interval=9),
-    )
+    followed = Counter({Combination(CASE, 0.2, 2, 5e-5): 1})
+    looks = Patterns.model_construct(harmonic=2, interval=9)
     table = summary.patterns(config, blade, Plan(1, Counter(), Counter(), followed, looks))
     assert table.revolution.tolist() == [9, 18]
     assert (table.pattern_depth > 1e-9).all()

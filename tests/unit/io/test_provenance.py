@@ -14,7 +14,6 @@ CONFIG = {"blade": {"length": 0.2, "eta": 6}, "coatings": [{"E": [11], "rigid": 
 
 @pytest.fixture
 def repository(tmp_path, monkeypatch):
-    """Stands for the repository that the package is installed from, with one commit."""
     for name in [name for name in os.environ if name.startswith("GIT_")]:
         monkeypatch.delenv(name)
     root = tmp_path / "repository"

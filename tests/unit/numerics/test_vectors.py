@@ -19,10 +19,6 @@ class Data(NamedTuple):
     number: float
 
 
-class Total(NamedTuple):
-    total: np.ndarray
-
-
 @pytest.fixture(scope="module")
 def data():
     rng = np.random.default_rng(1)
@@ -75,19 +71,6 @@ def test_sums_and_extremes_over_the_lanes(data):
     assert over(addresses(data)) == (pytest.approx(a.sum(), rel=1e-14), a.min(), a.max())
 
 
-def test_totals_of_eight_vectors(data):
-    @njit
-    def over(data):
-        a, b = memory.load(data.a, 0), memory.load(data.a, 8)
-        c, d = memory.load(data.a, 16), memory.load(data.a, 24)
-        e, f = memory.load(data.a, 32), memory.load(data.a, 40)
-        g, h = memory.load(data.a, 48), memory.load(data.a, 56)
-        memory.store_fields(vectors.lane_sums(Total, (a, b, c, d, e, f, g, h)), data.out)
-
-    over(addresses(data))
-    np.testing.assert_allclose(data.out, data.a.sum(axis=1), rtol=1e-14)
-
-
 def test_a_condition_holds_everywhere_or_not(data):
     @njit
     def over(data):
@@ -98,17 +81,6 @@ def test_a_condition_holds_everywhere_or_not(data):
         values = np.zeros((1, LANES))
         values[0, lane] = value
         assert not over(addresses(aligned(data._replace(a=values))))
-
-
-def test_single_numbers(data):
-    @njit
-    def move(data):
-        memory.write(memory.address_of(data.out, 2), 1, memory.read(data.a, 5))
-
-    data.out[:] = 0.0
-    move(addresses(data))
-    assert data.out[3] == data.a[0, 5]
-    assert np.count_nonzero(data.out) == 1
 
 
 def test_aligned_records_keep_what_is_in_them():

@@ -6,5 +6,4 @@ from study_fixtures import *  # noqa: F403 (fixtures)
 
 @pytest.fixture
 def angle():
-    """Few elements, to compare each."""
     return (np.arange(40) + 0.5) * 2 * np.pi / 40

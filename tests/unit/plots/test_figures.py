@@ -7,9 +7,15 @@ import pandas as pd
 import pytest
 from mpl_toolkits.mplot3d import Axes3D
 
+from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.blade.surface import boundary_faces, normals
+from bladerub.contact.illustration import pressed_elements
+from bladerub.contact.spec import Coating, TipProfile
 from bladerub.plots import maps, style
+from bladerub.plots.blade_mesh import front_faces, project
 from bladerub.plots.campbell import campbell
 from bladerub.plots.histogram import peak_histogram
+from bladerub.plots.illustration import tip_profile
 from bladerub.plots.maps import peak_sections, spectrum_map, wear_map
 from bladerub.plots.polar import casing_polar, wear_profiles
 from bladerub.plots.runs import histories
@@ -31,15 +37,9 @@ PEAKS = pd.DataFrame(
 
 
 def second(axes, along):
-    """Limits of the second scale along "x" or "y"."""
     axes.figure.canvas.draw()
     (found,) = [child for child in axes.child_axes if getattr(child, f"get_{along}label")()]
     return getattr(found, f"get_{along}lim")()
-
-
-def nominal(axes):
-    (line,) = [line for line in axes.lines if "nominal" in line.get_label()]
-    return line.get_xdata()[0]
 
 
 def test_depth_over_speed_and_angle_and_the_speed_of_the_rotor(coating_map, draws):
@@ -50,9 +50,8 @@ def test_depth_over_speed_and_angle_and_the_speed_of_the_rotor(coating_map, draw
     completed, early, *_ = lower.lines
     np.testing.assert_array_equal(completed.get_ydata(), [5, 5, 10, 5, 5])
     np.testing.assert_array_equal(early.get_xydata(), [[0.35, 4]])
-    assert lower.get_xlim() == pytest.approx((0.075, 0.375))
-    assert second(lower, "x") == pytest.approx(60 * 850 * np.array([0.075, 0.375]))
-    assert nominal(upper) == nominal(lower) == pytest.approx(0.3)
+    assert second(lower, "x") == pytest.approx(60 * 850 * np.array(lower.get_xlim()))
+    assert lower.lines[-1].get_xdata()[0] == pytest.approx(0.3)  # the nominal speed
 
 
 def test_amplitudes_and_c1_lie_on_their_frequency_on_the_given_scale(coating_map, draws):
@@ -111,7 +110,6 @@ def test_a_campbell_diagram_has_both_models_on_both_scales(draws):
             np.testing.assert_allclose(np.transpose(lines), drawn)
         assert second(axes, "x") == pytest.approx((0, 20400))
         assert second(axes, "y") == pytest.approx(850 * np.array(axes.get_ylim()))
-        assert nominal(axes) == pytest.approx(0.3)
 
 
 def test_an_extra_speed_opens_no_gap_and_missing_speeds_do():
@@ -123,7 +121,7 @@ def test_an_extra_speed_opens_no_gap_and_missing_speeds_do():
     np.testing.assert_array_equal(rows[:, 0], [0, 1, 2, np.nan, 3, 4])
 
 
-def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(draws, monkeypatch):
+def test_amplitudes_of_one_order_are_bars_in_mm(draws, monkeypatch):
     bars = []
     monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
     table, figure = peak_histogram(PEAKS, "amplitude", order=4, unit=600e6)
@@ -132,8 +130,7 @@ def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(dra
     places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
     np.testing.assert_array_equal(places, [[0, 0], [0, 1], [1, 0]])
     np.testing.assert_allclose(floor + height, [1.0, 3.0, 2.0])
-    _, cells, _ = draws(figure).axes
-    assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
+    draws(figure)
 
 
 def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(write_run, make_result, case, draws):
@@ -144,7 +141,6 @@ def test_displacements_in_mm_on_one_scale_and_the_growth_of_both_runs(write_run,
     for panel, result in zip(axes, (steady, growing), strict=False):
         np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * result.radial_displacement)
     assert axes[0].get_ylim() == axes[1].get_ylim()
-    assert axes[0].get_ylim()[1] > 1e3 * np.nanmax(np.abs(growing.radial_displacement))
     for line, result in zip(axes[2].lines, (steady, growing), strict=True):
         expected = np.transpose([np.arange(20) + 0.5, 1e3 * result.revolution_amplitude])
         np.testing.assert_allclose(line.get_xydata(), expected)
@@ -178,3 +174,46 @@ def test_logarithmic_axes_without_data_are_drawn(draws):
     axes = draws(figure).axes
     assert [one.get_xscale() for one in axes] == ["linear", "linear", "log"]
     assert {one.get_yscale() for one in axes} == {"log"}
+
+
+COATING = Coating(2.0, 0.5, 0.15, yield_stress=0.0, modulus_unit=1e8, thickness=5e-3, n_elements=2000)
+SCENE = pressed_elements(COATING, TipProfile(half_width=1.0, edge_drop=20e-6), 0.65, depth=1e-4, reach=3)
+
+
+def test_elements_reach_from_the_surface_to_the_casing_at_their_angle_and_are_worn(draws):
+    shape, heights = draws(tip_profile(SCENE)).axes
+    corners = np.array([path.vertices[:4] for path in shape.collections[0].get_paths()])
+    np.testing.assert_allclose(corners[:, 0, 1], 1e3 * SCENE.shortening, atol=1e-12)
+    np.testing.assert_allclose(corners[:, 2, 1], 5.0)
+    lean = corners[:, 3] - corners[:, 0]
+    np.testing.assert_allclose(lean[:, 0] / lean[:, 1], np.tan(0.15))
+    _, elastic, worn = ([bar.get_height() for bar in bars] for bars in heights.containers)
+    np.testing.assert_allclose(worn, 1e6 * SCENE.wear)  # μm
+    np.testing.assert_allclose(elastic, 1e6 * (SCENE.shortening - SCENE.wear), atol=1e-9)
+
+
+def tower(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Stack n unit cubes of 20 nodes: points and connectivity."""
+    mesh, _ = hexahedral_mesh([0, 1], [0, 1], np.arange(n + 1.0), lambda *cube: np.stack(cube))
+    return mesh.points, mesh.cells
+
+
+def test_outer_faces_alone_are_found_whose_normals_point_outward():
+    points, hexahedra = tower(3)
+    faces = boundary_faces(hexahedra)
+    assert faces.shape == (14, 8)
+    polygons = points[faces]
+    outward = polygons.mean(axis=1) - points.mean(axis=0)
+    assert (np.einsum("ij,ij->i", normals(polygons), outward) > 0).all()
+    steps = np.linalg.norm(np.diff(polygons, axis=1), axis=2)
+    np.testing.assert_allclose(steps, 0.5)  # from a corner to the next mid-side node
+
+
+def test_view_from_the_front():
+    eye = np.array([0.0, -1.0, 0.0])  # looking along +y: x to the right, z up
+    np.testing.assert_allclose(project(np.eye(3), eye), [[1, 0], [0, 0], [0, 1]], atol=1e-12)
+    points, hexahedra = tower(2)
+    polygons = points[boundary_faces(hexahedra)]
+    seen = front_faces(polygons, eye)
+    np.testing.assert_allclose(polygons[seen][:, :, 1], 0, atol=1e-12)
+    assert len(seen) == 2

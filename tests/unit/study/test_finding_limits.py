@@ -8,6 +8,8 @@ import pandas as pd
 import pytest
 
 from bladerub.study import divergence, findings, peaks
+from bladerub.study.findings import claim as register
+from bladerub.study.findings.claim import above, below, claim, in_order
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase
 from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, TILTED, WORN
@@ -24,8 +26,6 @@ DIVERGENT = {"divergent": True, "status": "unbounded", "growth_low": -0.5}
 
 @pytest.fixture
 def evidence(config):
-    """Evidence of what a test is about, and of nothing else."""
-
     def make(maps=(), **tables):
         empty = {
             "peaks": pd.DataFrame(columns=peaks.COLUMNS),
@@ -62,7 +62,6 @@ def either_side(yes, partly):
 
 
 def peak_rows(*rows):
-    """Rows of the table of peaks: case, order, f_peak and amplitude."""
     return pd.DataFrame(
         [(c.casing, c.E, c.K, c.theta, order, f, amplitude, c.law) for c, order, f, amplitude in rows],
         columns=peaks.COLUMNS,
@@ -197,6 +196,12 @@ def test_share_of_orders_with_a_significant_amplitude(evidence, make_map, n_orde
     check("C5c", evidence([coating]), 100 * n_significant / n_orders, holds)
 
 
+def test_one_order_alone_shows_no_share(evidence, make_map):
+    for speeds, judged in (([0.2, 0.25, 0.29], True), ([0.25, 0.29], False)):  # orders 4 and 5 cross C1, or 4
+        coating = make_map(CRITICAL, {4: (0.25, 1e-3), 5: (0.2, 1e-3)}, speeds)
+        assert is_measured("C5c", evidence([coating])) == judged
+
+
 @pytest.mark.parametrize(("id_", "order"), [("C6a", 4), ("C9a", 6)])
 @pytest.mark.parametrize(("other", "holds"), [(1.0, "yes"), (1.05, "partly"), (2.0, "no")])
 @pytest.mark.parametrize("place", [(0.11, 5.0), (20.0, 0.05)])
@@ -286,34 +291,28 @@ def judged_run(evidence, id_, tilted_f6=0.18, **run):
 
 
 @pytest.mark.parametrize(
-    ("run", "holds", "margin"),
+    ("parts", "run", "holds", "margin"),
     [
-        ({"growth_per_revolution": 0.02, "growth_low": 0.0101, "divergent": True}, "yes", 1e-4),
-        ({"growth_per_revolution": 0.0101, "growth_low": 0.01}, "partly", 0.0),
-        ({"growth_per_revolution": 0.0101, "growth_low": 0.0101}, "no", 1e-4),  # a beat that came again
-        ({"growth_per_revolution": 0.0, "growth_low": -0.02, "saturating": True}, "partly", -0.03),
-        (DIVERGENT, "yes", np.inf),
+        ("abgh", {"growth_per_revolution": 0.02, "growth_low": 0.0101, "divergent": True}, "yes", 1e-4),
+        ("abgh", {"growth_per_revolution": 0.0101, "growth_low": 0.01}, "partly", 0.0),
+        (
+            "abgh",
+            {"growth_per_revolution": 0.0101, "growth_low": 0.0101},
+            "no",
+            1e-4,
+        ),  # a beat that came again
+        ("abgh", {"growth_per_revolution": 0.0, "growth_low": -0.02, "saturating": True}, "partly", -0.03),
+        ("abgh", DIVERGENT, "yes", np.inf),
+        ("cdij", {"growth_low": 0.004}, "yes", 0.006),
+        ("cdij", {"growth_low": 0.015, "saturating": True}, "partly", -0.005),
+        ("cdij", DIVERGENT, "no", -np.inf),
     ],
 )
-@pytest.mark.parametrize("id_", ["C11a", "C11b", "C11g", "C11h"])
-def test_divergence_at_a_speed(evidence, id_, run, holds, margin):
-    finding = judged_run(evidence, id_, **run)
-    assert (finding.holds, finding.margin) == (holds, pytest.approx(margin, abs=1e-12))
-    assert finding.measured == run.get("growth_per_revolution", np.inf)
-
-
-@pytest.mark.parametrize(
-    ("low", "run", "holds", "margin"),
-    [
-        (0.004, {}, "yes", 0.006),
-        (0.015, {"saturating": True}, "partly", -0.005),
-        (-0.5, DIVERGENT, "no", -np.inf),
-    ],
-)
-@pytest.mark.parametrize("id_", ["C11c", "C11d", "C11i", "C11j"])
-def test_steadiness_at_a_speed(evidence, id_, low, run, holds, margin):
-    finding = judged_run(evidence, id_, **{"growth_per_revolution": 0.02, "growth_low": low} | run)
-    assert (finding.holds, finding.margin) == (holds, pytest.approx(margin, abs=1e-12))
+def test_divergence_and_steadiness_at_a_speed(evidence, parts, run, holds, margin):
+    for part in parts:
+        finding = judged_run(evidence, f"C11{part}", **run)
+        assert (finding.holds, finding.margin) == (holds, pytest.approx(margin, abs=1e-12))
+        assert parts == "cdij" or finding.measured == run.get("growth_per_revolution", np.inf)
 
 
 @pytest.mark.parametrize("id_", ["C11i", "C11j"])
@@ -420,8 +419,33 @@ def test_the_rigid_casing_is_compared_with_coatings_that_have_all_peaks(evidence
         assert measure("C12a", study).claim.endswith(f"E = {stiffest}")
 
 
-@pytest.mark.parametrize(("speeds", "judged"), [([0.2, 0.25, 0.29], True), ([0.25, 0.29], False)])
-def test_one_order_alone_shows_no_share(evidence, make_map, speeds, judged):
-    """C1 is crossed by order 4 at 0.277, by order 5 at 0.213."""
-    coating = make_map(CRITICAL, {4: (0.25, 1e-3), 5: (0.2, 1e-3)}, speeds)
-    assert is_measured("C5c", evidence([coating])) == judged
+@pytest.fixture
+def registered(monkeypatch):
+    monkeypatch.setattr(register, "REGISTERED", {})
+    return register.REGISTERED
+
+
+def test_claims_come_by_number_and_part_whatever_the_order_of_their_registration(registered):
+    for id_ in ("C10b", "C2", "C9e", "C10a", "B3a"):
+        claim(id_, "statement")(lambda evidence: None)
+    assert [each.id for each in in_order()] == ["B3a", "C2", "C9e", "C10a", "C10b"]
+
+
+@pytest.mark.parametrize("id_", ["C1a", "", "C4ab", "c4a"])
+def test_an_id_is_taken_once_and_of_one_form(registered, id_):
+    claim("C1a", "statement")(lambda evidence: None)
+    with pytest.raises(ValueError, match="C1a" if id_ == "C1a" else "id"):
+        claim(id_, "another")
+
+
+@pytest.mark.parametrize(("judge", "sign"), [(below, 1), (above, -1)])
+def test_verdicts_at_their_borders(judge, sign):
+    for value, expected in ((1.0, "yes"), (1.5, "partly"), (2.0, "partly"), (2.25, "no")):
+        assert judge(sign * value, sign * 1.0, sign * 2.0) == (expected, 1.0 - value)
+    assert judge(float("nan"), 1.0, 2.0)[0] == "no"
+
+
+@pytest.mark.parametrize(("one", "other"), [(0.31, 0.3), (0.316, 0.306), (0.335, 0.325), (0.19, 0.18)])
+def test_speeds_of_the_grid_that_lie_as_far_apart_as_a_border_are_within_it(one, other):
+    assert below(one - other, 0.01, 0.02)[0] == "yes"
+    assert above(other - one, -0.01, -0.02)[0] == "yes"

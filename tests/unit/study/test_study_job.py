@@ -1,17 +1,13 @@
-import math
 import threading
 import time
 
 import h5py
-import numpy as np
-import pandas as pd
 import pytest
 from study_fixtures import changed
 
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
-from bladerub.study import divergence, maps, peaks
-from bladerub.study.grid import CoatingCase
+from bladerub.study import divergence, maps
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.plan import coating_plan
@@ -107,7 +103,6 @@ def test_another_length_of_confirmation_repeats_only_what_grows(compute, study, 
 
 @pytest.fixture
 def quick(study, case):
-    """A study whose runs take a blink, and its plan."""
     study = changed(
         study.replaced("speeds.extra", []),
         contact={"elements": 200},
@@ -133,19 +128,6 @@ def test_real_runs_go_from_the_solver_to_the_table(quick, case, blade, tmp_path)
     assert set(table.status) == {"completed"}
     assert (coating.max_wear > 0).all()
     assert list(coating.lobes) == [2, 2, 2]  # stiff and heavy, it cuts the two lobes of the casing
-
-
-def test_the_rigid_casing_is_in_the_tables_as_a_coating_of_infinite_moduli(study, make_map, tmp_path):
-    case = CoatingCase.rigid("2nd", 0.15)
-    maps.write_map(tmp_path / "map.h5", make_map(case, {4: (0.31, 1e-4), 6: (0.2, 1e-4)}, lobes=0), {})
-    coating = maps.read_map(tmp_path / "map.h5")
-    assert coating.case == case
-    for table in (peaks.table, divergence.table):
-        table(study, [coating]).to_csv(tmp_path / "table.csv", index=False)
-        read = pd.read_csv(tmp_path / "table.csv")
-        assert (np.isinf(read.E) & np.isinf(read.K)).all()
-        assert read.theta.to_numpy() == pytest.approx(math.atan(0.15))
-        assert not read.drop(columns=["E", "K"]).isna().any(axis=None)
 
 
 def test_one_thread_is_the_caller_s_and_computes_on_demand():

@@ -1,4 +1,4 @@
-"""Let the system refuse to open files to read: those whose paths match ``REFUSED``, by the error ``REFUSAL``.
+"""Let the system refuse to open files to read whose paths match ``REFUSED``, by the error ``REFUSAL``.
 
 Python imports it at the start of every process that has this folder in ``PYTHONPATH``.
 """

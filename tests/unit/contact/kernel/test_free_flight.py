@@ -27,7 +27,6 @@ class Flight(NamedTuple):
 
 @cache
 def compiled(turns):
-    """Compile a free flight, and the loss that the next step enters."""
     names = ("contact.kernel.free_flight", "contact.kernel.modal", "numerics.vectors")
     free_flight, modal, vectors = (module_for(8, name, turns=turns) for name in names)
 
@@ -69,7 +68,6 @@ def vibration(scheme):
 
 
 def in_steps(scheme, q, n_steps):
-    """Every state of the free recurrence from the oldest on."""
     history = [q[2], q[1], q[0]]
     for _ in range(n_steps):
         history.append(scheme.now * history[-1] - scheme.before * history[-2])

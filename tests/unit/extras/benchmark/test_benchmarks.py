@@ -9,26 +9,12 @@ from bladerub.config import read as configuration
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import PLASTIC
-from bladerub.extras.benchmark import estimate, gpu, measure, plain
+from bladerub.extras.benchmark import estimate, gpu, plain
 from bladerub.extras.benchmark.record import GPU_COLUMNS, MACHINE, gpu_row, replace, rows
 from bladerub.extras.gpu import emulation
 from bladerub.extras.law_reading import described_law
 from bladerub.extras.study_runs import study_runs
 from bladerub.io import tables
-
-
-def test_useful_operations_of_a_step(blade, spec, change):
-    rule, simulation = set_up(blade, spec)
-    n, flight = rule.omega.size, simulation.flight.n_steps
-    free = change(spec, clearance=(1.0, 1.0))
-    assert measure.useful_flops(blade, free) == pytest.approx(61 * n / flight)
-    result = simulate(blade, spec)
-    flops = measure.useful_flops(blade, spec) * result.n_steps
-    contact = (32 * n + 512 + 8 * (5 * 69 + 60)) * result.n_contact_steps
-    single = (flops - contact - 61 * n / flight * result.n_steps) / (39 * n - 61 * n / flight)
-    assert result.n_contact_steps <= single < result.n_steps
-    assert single == pytest.approx(round(single))
-
 
 SMALL = {
     "coatings": [{"casing": "2nd", "E": [2, 20], "K": [0.5], "theta": [0.15]}],

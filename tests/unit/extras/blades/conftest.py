@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
-from blade_fixtures import blade_config, twisted_config  # noqa: F401 (fixtures)
-from blade_parts import REDUCTION, TWISTED
+from blade_parts import REDUCTION, TWISTED, blade_config, twisted_config  # noqa: F401 (fixtures)
 
 from bladerub.blade.build import meshed_blade
 from bladerub.blade.discrete import by_finite_elements

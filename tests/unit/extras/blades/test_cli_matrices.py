@@ -13,7 +13,6 @@ from bladerub.io import hdf5
 
 @pytest.fixture(scope="module")
 def written(folder):
-    """The matrices of a coarse default blade at five speeds, and its config."""
     words = ["export", "--config", folder / "small.yaml", "--fe-matrices", folder / "m"]
     assert main([str(word) for word in [*words, "--speeds", 0.1, 0.3, "--matrix-format", "npz"]]) == 0
     return folder

@@ -46,7 +46,6 @@ def of_folder(config, folder):
 
 
 def edit(folder, name, change):
-    """Change a matrix of the folder."""
     path = folder / f"{name}.npz"
     sparse.save_npz(path, sparse.csc_array(change(sparse.load_npz(path))))
 
@@ -117,19 +116,15 @@ def report(folder, config, units="SI"):
 
 def test_figures_are_those_of_the_matrices_and_wrong_units_get_a_warning(folder, discrete, config):
     figures, mesh = report(folder, config), discrete.layout.mesh
-    assert figures["nodes"] == len(mesh.mesh.points)
-    assert figures["unknowns"] == discrete.mass.shape[0]
-    assert figures["speeds"] == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
-    assert figures["f1_hz"] == pytest.approx(discrete.frequency[0])
-    assert figures["omega_max"] == pytest.approx(2 * np.pi * 0.4 * discrete.frequency[0])
+    assert (figures["nodes"], figures["unknowns"]) == (len(mesh.mesh.points), discrete.mass.shape[0])
+    f1 = discrete.frequency[0]
+    assert (figures["f1_hz"], figures["omega_max"]) == pytest.approx((f1, 2 * np.pi * 0.4 * f1))
     assert figures["mass"] == pytest.approx(discrete.mass.sum() / 3)
-    assert not figures["mass_is_whole"]
     assert figures["interface"] == mesh.mesh.points[mesh.interface].tolist()
     assert figures["wave_speed"] == pytest.approx(6000, rel=0.05)
     assert figures["stiffness_half_way"] == pytest.approx(0.25, abs=0.03)
     assert 1e-6 < max(figures["error_eq2"]) < 0.01
-    assert figures["campbell_ratio"] > 1
-    assert figures["warnings"] == []
+    assert (figures["mass_is_whole"], figures["warnings"]) == (False, [])
     figures = report(folder, config, "mm-tonne")
     assert figures["f1_hz"] == pytest.approx(discrete.frequency[0])
     (wrong_units,) = figures["warnings"]

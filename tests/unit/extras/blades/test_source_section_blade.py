@@ -155,8 +155,6 @@ def test_angles_in_another_unit_make_a_film_which_is_refused(tmp_path):
 
 @pytest.fixture
 def table(tmp_path):
-    """Read a text as a table of sections in cm."""
-
     def sections(text, angle_unit="rad", name="blade.csv", frame=CM):
         (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
         return section_table.read(tmp_path / name, frame, angle_unit)

@@ -20,7 +20,6 @@ CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
 
 @pytest.fixture
 def simulated():
-    """Speeds and revolutions of the runs that were simulated."""
     return []
 
 

@@ -7,8 +7,7 @@ from argparse import Namespace
 import pytest
 
 from bladerub.cli import inputs, main
-from bladerub.config.read import read
-from bladerub.io.folders import ROOT, study_folder
+from bladerub.io.folders import ROOT
 
 LAW = ROOT / "src" / "bladerub" / "extras" / "laws" / "brittle.py"
 
@@ -63,16 +62,6 @@ def test_a_law_is_taken_from_the_results_if_trusted_of_the_package_or_of_the_stu
     config.write_text(config.read_text().replace("contact:\n", "contact:\n  law: {file: evil.py}\n"))
     _record(study, file="evil.py")
     assert inputs.read_config(options).contact.law.plain() == {"file": "evil.py"}
-
-
-def test_a_new_study_has_the_config_of_the_paper(tmp_path, monkeypatch, capsys):
-    folder = tmp_path / "studies" / "own"
-    assert main(["new", str(folder)]) == 0
-    assert str(folder) in capsys.readouterr().out
-    assert read(folder / "config" / "config.yaml") == read(ROOT / "config" / "config.yaml")
-    assert {path.name for path in folder.iterdir()} >= {"Snakefile", "README.md", "config", "profiles"}
-    monkeypatch.chdir(folder / "config")
-    assert study_folder() == folder
 
 
 def test_nothing_is_written_over(tmp_path, capsys):

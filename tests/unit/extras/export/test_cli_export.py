@@ -26,7 +26,6 @@ def folder(folder):
 
 @pytest.fixture
 def words(folder, at_home):
-    """The words of the command up to the folder that it writes to."""
     return ["export", "--run", folder / "run.h5", "--config", folder / "small.yaml", "--vtu"]
 
 

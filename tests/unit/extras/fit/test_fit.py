@@ -21,11 +21,9 @@ def test_a_curve_for_each_rate_in_si_by_the_units_given_and_bad_tables_are_named
     np.testing.assert_allclose(slow.strain, [1e-4, 2e-4, 3e-4])
     np.testing.assert_allclose(fast.stress, [6e6, 11e6, 12e6])
     assert read(table("strain,stress (MPa),rate"), {"stress": "Pa"})[0].stress[0] == 5e6
-    assert read(table("strain,stress,rate"), {"stress": "kPa"})[0].stress[0] == 5e3
     for header, rows, words in (
         ("strain,force,rate", ROWS, "no column stress"),
         ("strain,stress,rate", ROWS, "column stress: has no unit"),
-        ("strain,stress (Pa),rate", ["0.01,x,1", *ROWS], "line 2: stress = x, must be a finite number"),
         ("strain,stress (Pa),rate", [*ROWS, "1.5,12,1"], "line 8: strain = 1.5, must be from 0 to 1 1"),
         ("strain,stress (Pa),rate", ["0.01,-5,1"] * 5, "stress: is negative"),
         ("strain,stress (Pa)", [f"{0.5 - 0.1 * n},{5 - n}" for n in range(5)], "begins at its largest"),

@@ -53,21 +53,6 @@ def test_the_module_of_a_law_that_plugs_in_counts_for_the_key():
             parameters_of(source)
 
 
-@pytest.mark.parametrize(
-    ("name", "key", "value"), [("viscoplastic", "viscosity", 0), ("brittle", "break_strain", 1e9)]
-)
-def test_without_viscosity_or_breaking_a_law_is_plastic(name, key, value):
-    law = described_law(name, {key: value})
-    depth = np.linspace(-1e-5, 1e-4, 101)
-    module, element, *found = pressed(law, depth)
-    plastic, plastic_element, *wanted = pressed(PLASTIC, depth)
-    np.testing.assert_allclose(found, wanted, rtol=1e-12)
-    force, increment = wanted
-    of_plastic = plastic.dissipated_energy(plastic_element, WORN, increment, 0.0, force)
-    found = module.dissipated_energy(element, WORN, increment, 0.0, force)
-    np.testing.assert_allclose(found, of_plastic, rtol=1e-12)
-
-
 @pytest.mark.slow
 @pytest.mark.nightly
 def test_the_law_of_the_paper_from_a_file_gives_the_same_bits(blade, spec, change):

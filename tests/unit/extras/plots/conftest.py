@@ -1,2 +1,2 @@
-from plot_fixtures import coating_map, draws  # noqa: F401 (fixtures)
+from plot_fixtures import draws  # noqa: F401 (fixture)
 from stand_in import blade  # noqa: F401 (fixture)

@@ -34,25 +34,17 @@ def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, 
         assert sorted(zip(*line.get_data(), strict=True)) == [(0.11, 0.5), (0.5, 0.5), (1.1, 0.5)]
 
 
-def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):
+def test_the_ridge_is_drawn_against_what_explains_it_and_over_the_modulus(chart, blade, draws):
     peaks = chart.assign(order=4, amplitude=chart.Y4, E_T=chart.E * chart.K / (chart.E + chart.K))
     peaks = peaks.assign(wear_per_cycle=1e3 * peaks.amplitude, lobes=4)
     _, energy, *_ = draws(chart_explanation(peaks, 6e8)).axes
     np.testing.assert_allclose(energy.lines[1].get_xdata(), [1.11, 1.5, 2.1])
-    without = dict.fromkeys(("amplitude", "wear_per_cycle", "lobes"), np.nan)
-    draws(chart_explanation(peaks.assign(**without), 6e8))
-
-
-def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, blade, draws):
-    peaks = chart.assign(order=4, f_crossing=0.29, E_T=chart.E * chart.K / (chart.E + chart.K))
-    peaks["f_peak"] = 0.29 + 0.05 * peaks.E_T
-    peaks.loc[peaks.E == 0.11, "f_peak"] = 0.28
+    peaks["f_crossing"], peaks["f_peak"] = 0.29, 0.29 + 0.05 * peaks.E_T
     (axes,) = draws(chart_stiffening(peaks, stiffening.table(peaks, blade), 6e8)).axes
-    found, other, *_ = axes.lines
-    np.testing.assert_allclose(found.get_ydata(), 0.29 + 0.05 * found.get_xdata())
-    np.testing.assert_array_equal(other.get_ydata(), [0.28] * 3)
-    peaks["f_peak"] = np.nan  # of a chart without any peak
-    draws(chart_stiffening(peaks, stiffening.table(peaks, blade), 6e8))
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), 0.29 + 0.05 * axes.lines[0].get_xdata())
+    nothing = peaks.assign(**dict.fromkeys(("amplitude", "wear_per_cycle", "lobes", "f_peak"), np.nan))
+    draws(chart_explanation(nothing, 6e8))
+    draws(chart_stiffening(nothing, stiffening.table(nothing, blade), 6e8))
 
 
 def test_each_law_has_a_panel_with_its_cycles_in_megapascals(draws):
@@ -84,9 +76,7 @@ def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws):
     drawn = [sweep("up", 0.05), sweep("down", 0.05), sweep("up", 0.2, "unbounded")]
     up, down = draws(sweeps(drawn, {case: constant})).axes
     np.testing.assert_allclose(up.lines[0].get_ydata(), [0.2, 2.0, 9.0])
-    np.testing.assert_allclose(up.lines[3].get_xydata(), [[speeds[19], up.lines[2].get_ydata()[19]]])
     np.testing.assert_allclose(down.lines[1].get_xdata(), speeds[::-1])
-    assert up.get_ylim()[1] == pytest.approx(1.08 * 2.0)  # the run that left all bounds is out of it
 
 
 def test_errors_stand_over_steps_and_chaotic_runs_are_left_out():

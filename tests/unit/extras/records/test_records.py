@@ -30,7 +30,6 @@ def test_nothing_was_laid_over_or_the_record_is_damaged(tmp_path, monkeypatch, t
 
 @pytest.fixture
 def workflow_with(tmp_path, monkeypatch):
-    """What `plan` and `start` see of Snakemake's workflow."""
     persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
     monkeypatch.setattr(invocation, "_planned", [])
     monkeypatch.setenv("PYTHONPATH", "")

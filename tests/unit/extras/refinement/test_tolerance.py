@@ -39,37 +39,26 @@ def test_speeds_or_modes_are_added_until_the_error_is_allowed():
     assert built.reduced.stiffness_higher == ()
 
 
-@pytest.fixture
-def tried(monkeypatch):
-    """Search for a reduction with given errors by (fit speeds, modes); return what was tried, in order."""
+@pytest.mark.parametrize(
+    ("mode", "speed_law", "tried"),
+    [
+        (6, {3: 0.0}, [(3, modes) for modes in range(6, 31, 2)]),  # thirty at a speed are the most
+        (7, {3: 0.0}, [(3, 6)]),  # the first six count
+        # a fit speed is added while eq. (2) has more than half of the tolerance
+        (1, {3: 0.02, 4: 0.0051, 5: 0.0049}, [(3, 6), (4, 6), (5, 6), *((5, 8 + 2 * n) for n in range(12))]),
+    ],
+)
+def test_what_is_tried_until_the_error_of_a_mode_is_allowed(monkeypatch, mode, speed_law, tried):
+    found = []
 
-    def search(tolerance, speed_law, reduced_model, most_fit_speeds=7, mode=1):
-        tried = []
+    def reduce(n_speeds, config):
+        found.append((n_speeds, config.reduction.modes_per_speed))
+        table = pd.DataFrame({"mode": range(1, 9)}).assign(f_fe=1.0, f_fe_eq2=1.0, relative_error=0.0)
+        errors = [1 + speed_law[n_speeds], 0.02 if found[-1][1] < 30 else 0.0]
+        table.loc[table["mode"] == mode, ["f_fe_eq2", "relative_error"]] = errors
+        return BuiltBlade(*[None] * 7, table, "")
 
-        def reduce(n_speeds, config):
-            tried.append((n_speeds, config.reduction.modes_per_speed))
-            table = pd.DataFrame({"mode": range(1, 9)}).assign(f_fe=1.0, f_fe_eq2=1.0, relative_error=0.0)
-            errors = [1 + speed_law(*tried[-1]), reduced_model(*tried[-1])]
-            table.loc[table["mode"] == mode, ["f_fe_eq2", "relative_error"]] = errors
-            return BuiltBlade(*[None] * 7, table, "")
-
-        monkeypatch.setattr(refinement, "reduce", reduce)
-        change = partial(refinement.reduce_to_tolerance, lambda n: n, most_fit_speeds=most_fit_speeds)
-        reduced(change, modes_per_speed=6, tolerance=tolerance)
-        return tried
-
-    return search
-
-
-def test_a_fit_speed_is_added_while_eq_2_has_more_than_half_of_the_tolerance(tried):
-    law = {3: 0.02, 4: 0.0051, 5: 0.0049}
-    found = tried(0.01, lambda n, _: law[n], lambda n, modes: 0.02 if modes < 10 else 0.01)
-    assert found == [(3, 6), (4, 6), (5, 6), (5, 8), (5, 10)]
-
-
-@pytest.mark.parametrize(("mode", "steps"), [(6, 13), (7, 1)])
-def test_the_first_six_modes_count_and_thirty_at_a_speed_are_the_most(tried, mode, steps):
-    def in_that_mode(_, modes):
-        return 0.0 if modes == 30 else 0.02
-
-    assert len(tried(0.01, lambda *_: 0.0, in_that_mode, mode=mode)) == steps
+    monkeypatch.setattr(refinement, "reduce", reduce)
+    change = partial(refinement.reduce_to_tolerance, lambda n: n, most_fit_speeds=7)
+    reduced(change, modes_per_speed=6, tolerance=0.01)
+    assert found == tried

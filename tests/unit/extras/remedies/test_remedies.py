@@ -18,7 +18,6 @@ from bladerub.io.errors import BadInput
 
 @pytest.fixture
 def workflow_with(tmp_path, monkeypatch):
-    """What `start` sees of Snakemake's workflow."""
     monkeypatch.setenv("PYTHONPATH", "")
     own = {"persistence": SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)}
     return lambda limiter=None, local_exec=True: SimpleNamespace(
@@ -43,7 +42,6 @@ def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflo
 
 @pytest.fixture
 def handle():
-    """Set handlers of signals for this test alone."""
     before = {sign: signal.getsignal(sign) for sign in (signal.SIGTERM, signal.SIGINT)}
     yield signal.signal
     for sign, handler in before.items():

@@ -92,7 +92,6 @@ def test_a_page_whole_by_itself_has_the_numbers_of_the_tables_with_units(study, 
     assert not re.search(r"<script|<link |src=\"(?!data:)|url\((?!#)", page)
     assert all(f'id="{anchor}"' in page for anchor in re.findall(r'<a href="#([\w-]+)"', page))
     peaks, shown_tables = tables.read(study / "tables" / "peaks.csv"), tables_of(page)
-    assert {"quantity": "damping ratio", "value": "0.23 % of every mode"} in shown_tables["Inputs"]
     rows = shown_tables["Peak of"]
     assert [row["coating"] for row in rows] == [*2 * [STRAIGHT], *2 * [RIGID], *2 * [INCLINED]]
     shown = {(row["coating"], int(row["engine order"])): row for row in rows}
@@ -107,16 +106,11 @@ def test_a_page_whole_by_itself_has_the_numbers_of_the_tables_with_units(study, 
     assert (worst["coating"], worst["E"], worst["K"]) == (STRAIGHT, "1.2 GPa", "300 MPa")
     first = 60 * F1 * runs[runs.divergent].f_omega.min()
     assert worst["diverges at (rpm)"] == f"{first:,.0f} to 4,608"
-    assert "eq. (2) is up to 2 %" in page
-    assert "vibrates more than at its peaks, 4 mm at 1,152 rpm on order 9" in page
-    assert "also excites engine orders 2 (outside of 230 to 4,608 rpm)" in page
-    (change,) = shown_tables["One property"]
-    assert (change["change"], change["highest peak (mm)"]) == ("θ = 0° → θ = 8.59°", "3 → 0.5")
-    (choice,) = shown_tables["Recommended by"]
-    assert (choice["displacement (mm)"], choice["around it (mm)"]) == ("0.4", "0.3 to 0.9")
-    assert (choice["safe around it"], choice["safe in the chart"]) == ("2 of 5", "7 of 40")
-    (doubtful,) = shown_tables["Runs to"]
-    assert doubtful["ended at the displacement limit (runs)"] == "1"
+    assert "4 mm at 1,152 rpm on order 9" in page  # more than at its peaks
+    (change,), (choice,) = shown_tables["One property"], shown_tables["Recommended by"]
+    assert change["highest peak (mm)"] == "3 → 0.5"
+    assert (choice["displacement (mm)"], choice["safe in the chart"]) == ("0.4", "7 of 40")
+    assert shown_tables["Runs to"][0]["ended at the displacement limit (runs)"] == "1"
 
 
 def test_coatings_are_chosen_by_name_and_a_study_that_is_not_finished_is_refused(study, report, tmp_path):

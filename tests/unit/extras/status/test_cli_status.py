@@ -1,7 +1,12 @@
+import io
+import sys
+
 import pytest
 
 from bladerub.io.checksum import file_checksum
+from bladerub.study.job import RunDone
 from bladerub.study.manifest import ManifestRow, write_manifest
+from bladerub.workflow.job import JobProgress
 
 
 @pytest.fixture
@@ -49,3 +54,26 @@ def test_stale_runs_are_counted_and_damaged_ones_named_and_deleted_on_request(
     assert command("status", "--thorough", "--discard", *six_runs)[0] == 0
     assert not any(path.exists() for path in hurt)
     assert whole.exists()
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def done(number, total):
+    return RunDone(number, total, "0.1000.h5", "completed", 0.1, 0.2)
+
+
+def test_each_run_is_a_line_of_the_log_and_the_bar_is_on_a_terminal_only(tmp_path, monkeypatch, capsys):
+    terminal, file = Terminal(), io.StringIO()
+    for stream in (terminal, file):
+        monkeypatch.setattr(sys, "__stderr__", stream)
+        progress = JobProgress("2nd_E2_K0.5_theta0", tmp_path / "runs")
+        progress(done(1, 2))
+        progress(done(2, 2))
+        progress.finish([])
+        assert capsys.readouterr().err.splitlines()[:2] == [str(done(1, 2)), str(done(2, 2))]
+    assert "2nd_E2_K0.5_theta0" in terminal.getvalue()
+    assert "/2 |" in terminal.getvalue()
+    assert file.getvalue() == ""

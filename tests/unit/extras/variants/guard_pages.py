@@ -1,7 +1,6 @@
-"""Run drawn simulations whose arrays end, or begin, at a page that may not be touched.
+"""Run drawn simulations whose arrays end, or begin, at a page that may not be touched: a signal ends them.
 
-An access outside of an array that the loop addresses ends the process by a signal. Arguments: number of runs,
-seed, most interface nodes, laws by name; or ``provoke``, which touches such a page.
+Arguments: number of runs, seed, most interface nodes, laws by name; or ``provoke``, to touch such a page.
 """
 
 import contextlib

@@ -3,12 +3,8 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
-from typing import NamedTuple
 
-import numpy as np
 import pytest
-
-from bladerub.contact.laws import module_for
 
 PROGRAM = Path(__file__).with_name("guard_pages.py")
 ALL = ["plastic", "plastic", "viscoplastic", "brittle", "thermal"]
@@ -32,28 +28,6 @@ def test_no_access_outside_of_an_array(arguments):
 @pytest.mark.slow
 def test_an_access_outside_ends_by_a_signal():
     assert guarded_runs("provoke").returncode == -signal.SIGSEGV
-
-
-class Pair(NamedTuple):
-    one: np.ndarray
-    other: np.ndarray
-
-
-def test_totals_of_vectors_of_sixteen_lanes():
-    from numba import njit
-
-    wide, memory = (module_for(16, f"numerics.{name}") for name in ("vectors", "memory"))
-    a, out = np.random.default_rng(1).normal(size=(32, 16)), np.zeros(32)
-
-    @njit
-    def totals(a, out):
-        sums = memory.no_sums()
-        for row in range(32):
-            sums = memory.add_products(sums, a, memory.load(a, 16 * row))
-        memory.store_fields(wide.lane_sums(Pair, sums), out)
-
-    totals(a.ctypes.data, out.ctypes.data)
-    np.testing.assert_allclose(out, (a @ a.sum(axis=0)), rtol=1e-12)
 
 
 ONE = """
