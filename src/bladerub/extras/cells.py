@@ -58,10 +58,8 @@ class Cells(NamedTuple):
             raise ValueError(f"line {self.header}: has the column {name.lower()} twice")
         for line, row in self.rows.items():
             if len(row) != len(lower):
-                raise ValueError(
-                    f"line {line}: has {len(row)} cells, must have {len(lower)} as the header has (separated "
-                    f"by {self.separator}{self._cure(row)})"
-                )
+                fault = f"has {len(row)} cells, must have {len(lower)} as the header has"
+                raise ValueError(f"line {line}: {fault} (separated by {self.separator}{self._cure(row)})")
         index = lower.index(name.lower())
         return [row[index] for row in self.rows.values()]
 
@@ -90,16 +88,12 @@ class Cells(NamedTuple):
         commas = [(line, cell) for line, cell in numbers if "," in cell]
         if points and commas:
             (line, cell), (other_line, other) = points[0], commas[0]
-            raise ValueError(
-                f"line {line} has {cell} and line {other_line} {other}; all numbers must have the same "
-                "decimal mark, and none between thousands"
-            )
+            right = "all numbers must have the same decimal mark, and none between thousands"
+            raise ValueError(f"line {line} has {cell} and line {other_line} {other}; {right}")
         if commas and all(_THOUSANDS.fullmatch(cell) for _, cell in commas):
-            line, cell = commas[0]
-            raise ValueError(
-                f"line {line} has {cell}: with a decimal comma, or one between thousands? Write "
-                f"{cell.replace(',', '.')} or {cell.replace(',', '')}"
-            )
+            (line, cell), doubt = commas[0], "with a decimal comma, or one between thousands?"
+            cure = f"Write {cell.replace(',', '.')} or {cell.replace(',', '')}"
+            raise ValueError(f"line {line} has {cell}: {doubt} {cure}")
 
     def _with_point(self, cell: str) -> str:
         return cell if self.separator == "commas" else cell.replace(",", ".")

@@ -106,10 +106,9 @@ def check_joined(cells: np.ndarray) -> None:
         )
     sizes = np.unique(connected(cells), return_counts=True)[1]
     if sizes.size > 1:
-        raise ValueError(
-            f"has {sizes.size} bodies that share no nodes, of {', '.join(map(str, sizes[:4]))} elements; "
-            "must be one blade: merge nodes where they touch, or leave the others out"
-        )
+        fault = f"has {sizes.size} bodies that share no nodes, of {', '.join(map(str, sizes[:4]))} elements"
+        right = "must be one blade: merge nodes where they touch, or leave the others out"
+        raise ValueError(f"{fault}; {right}")
 
 
 def connected(cells: np.ndarray) -> np.ndarray:
@@ -138,10 +137,8 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
     if len(misplaced):
         element, edge = misplaced[0]
         number = cells.shape[1] - ends.shape[1] + edge + 1
-        raise ValueError(
-            f"element {element + 1}: its {number}th node is not in the middle of its edge; nodes must be in "
-            "the order of CalculiX and VTK"
-        )
+        fault = f"element {element + 1}: its {number}th node is not in the middle of its edge"
+        raise ValueError(f"{fault}; nodes must be in the order of CalculiX and VTK")
 
 
 def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
@@ -153,10 +150,8 @@ def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
     flat = _FLAT * np.ptp(mesh.points[mesh.cells], axis=1).max(axis=1, keepdims=True) ** 3
     bad = np.flatnonzero((determinant <= flat).any(axis=1))
     if bad.size:
-        raise ValueError(
-            f"element {bad[0] + 1}: its Jacobian is zero or negative, it is flat or turned inside out "
-            f"({bad.size} such of {len(determinant)})"
-        )
+        fault = "its Jacobian is zero or negative, it is flat or turned inside out"
+        raise ValueError(f"element {bad[0] + 1}: {fault} ({bad.size} such of {len(determinant)})")
     return determinant.min(axis=1) / determinant.max(axis=1), float(np.sum(determinant @ weights))
 
 

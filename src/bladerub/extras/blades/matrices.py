@@ -70,10 +70,8 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
         n_internal = free.free.size - 3 * nodes.interface.size
         n_required = max(n_modes, reduction.modes_per_speed)
         if n_internal <= n_required:
-            raise ValueError(
-                f"has {n_internal} free coordinates off the interface; must have more than {n_required}, the "
-                "modes that are wanted"
-            )
+            right = f"must have more than {n_required}, the modes that are wanted"
+            raise ValueError(f"has {n_internal} free coordinates off the interface; {right}")
 
     def read(name: str) -> tuple[csc_array, csc_array]:
         with naming(names[name]):
@@ -141,10 +139,8 @@ def of_length(config: Config) -> DiscreteBlade:
     if imported.is_rooted:
         check_length(length, layout.length, folder)
     elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < tip_radius:
-        raise BadInput(
-            f"blade.length = {length:g}: must be that of the blade in {folder}, whose nodes reach "
-            f"over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
-        )
+        reach = f"whose nodes reach over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
+        raise BadInput(f"blade.length = {length:g}: must be that of the blade in {folder}, {reach}")
     return imported.blade
 
 
@@ -167,10 +163,8 @@ def _layout(nodes: matrix_folder.Nodes, frame: Frame, tip_cone: float | None) ->
         first, second = twins[0] + 1
         raise ValueError(f"interface nodes {first} and {second} are in one place")
     if frame.downstream_x * (ends[-1, 0] - ends[0, 0]) <= 0:
-        raise ValueError(
-            f"interface node 1 is downstream of node {len(ends)}; must be at the leading edge: is downstream "
-            f"= {frame.downstream} the direction of the flow?"
-        )
+        right = f"must be at the leading edge: is downstream = {frame.downstream} the direction of the flow?"
+        raise ValueError(f"interface node 1 is downstream of node {len(ends)}; {right}")
     tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
     mesh = BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface)
     return measured(mesh, frame, tip_cone)
@@ -216,10 +210,8 @@ def check_definite(matrix: csc_array) -> None:
     diagonal = matrix.diagonal()
     low = np.flatnonzero(diagonal <= 0)
     if low.size:
-        raise ValueError(
-            f"is not positive definite: its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}; "
-            "must be above 0"
-        )
+        fault = f"its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}"
+        raise ValueError(f"is not positive definite: {fault}; must be above 0")
     scale = 1 / np.sqrt(diagonal)
     ritz = _ritz_values(lambda vector: scale * (matrix @ (scale * vector)), diagonal.size)
     if ritz.min() < -_ROUNDING * np.abs(ritz).max():
@@ -247,7 +239,5 @@ def check_held(stiffness: csc_array, mode: np.ndarray) -> None:
     """Raise ValueError if the energy of the lowest `mode` of a stiffness is negative or only rounding."""
     size = np.abs(mode)
     if mode @ (stiffness @ mode) <= _ENERGY * (size @ (abs(stiffness) @ size)):
-        raise ValueError(
-            "is singular or indefinite: its lowest mode moves the blade without resistance; mark the clamped "
-            "nodes, or leave their rows out"
-        )
+        fault = "is singular or indefinite: its lowest mode moves the blade without resistance"
+        raise ValueError(f"{fault}; mark the clamped nodes, or leave their rows out")

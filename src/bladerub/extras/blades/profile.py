@@ -109,10 +109,8 @@ def interface(
     indices = linear_sum_assignment(distance**2)[1]
     offset = distance[np.arange(n_nodes), indices].max()
     if offset > arc[-1] / (2 * (n_nodes - 1)):
-        raise ValueError(
-            f"the tip is too coarse: an interface node would be {offset:.3g} m off its place on a camber "
-            f"line of {arc[-1]:.3g} m"
-        )
+        fault = f"an interface node would be {offset:.3g} m off its place on a camber line of {arc[-1]:.3g} m"
+        raise ValueError(f"the tip is too coarse: {fault}")
     return nodes[indices], float(arc[-1]), float(offset)
 
 
