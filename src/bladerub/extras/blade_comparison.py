@@ -59,11 +59,7 @@ def radial_compliance(blade: ReducedBlade) -> float:
 def runs(
     config: Config, pairs: Iterable[tuple[CoatingMap, CoatingMap]], lengths: tuple[float, float]
 ) -> pd.DataFrame:
-    """Compare the maps of each coating at their common speeds: a row per speed, with `RUN_COLUMNS`.
-
-    The first map of a pair is of the study of `config`, the second of the reference. A worn depth is the mean
-    over the casing, as a share of the length of the blade, which `lengths` (m) has for both.
-    """
+    """Compare maps of this study and of the reference at common speeds: rows of `RUN_COLUMNS`."""
     tables = [pd.DataFrame(columns=RUN_COLUMNS)]
     for one, other in pairs:
         reference = _of(config, other, lengths[1]).add_prefix("reference_")
@@ -80,6 +76,7 @@ def _of(config: Config, coating: CoatingMap, length: float) -> pd.DataFrame:
             "f_omega": coating.f_omega,
             "speed": coating.f_omega.round(9),  # of grids with other steps
             "lobes": coating.lobes,
+            # mean over the casing, over the length of the blade
             "worn_depth_share": coating.wear.mean(axis=1) / length,
             "divergent": [verdict.divergent for verdict in divergence.verdicts(config, coating)],
         }

@@ -49,10 +49,7 @@ class Cells(NamedTuple):
             )
 
     def column(self, name: str) -> list[str]:
-        """Return the cells of a column; capital and small letters are alike.
-
-        A ValueError names the line where the column is twice, or of a row with more or fewer cells.
-        """
+        """Return the cells of a column, in any case; a ValueError names a line with too many or too few."""
         lower = [column.lower() for column in self.names]
         if lower.count(name.lower()) > 1:
             raise ValueError(f"line {self.header}: has the column {name.lower()} twice")
@@ -64,10 +61,7 @@ class Cells(NamedTuple):
         return [row[index] for row in self.rows.values()]
 
     def numbers(self, name: str, empty: float = np.nan) -> np.ndarray:
-        """Return the numbers (n_rows,) of a column; a cell with nothing in it is `empty`.
-
-        A ValueError names the line as `column`, or of a cell that is no finite number.
-        """
+        """Return the numbers (n_rows,) of a column, `empty` where none is; ValueError as `column`."""
         numbers, cells = [], self.column(name)
         for line, cell in zip(self.rows, cells, strict=True):
             text = self._with_point(cell)

@@ -45,10 +45,7 @@ class Imported(NamedTuple):
 
 
 def import_blade(source: Source, counts: Mesh, n_interface: int = N_INTERFACE) -> Imported:
-    """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong.
-
-    The tip gets `n_interface` interface nodes.
-    """
+    """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong."""
     with origin.naming(origin.path(source)):
         if origin.is_table(source):
             return _import_sections(source, counts, n_interface)
@@ -225,10 +222,7 @@ def _import_sections(source: Source, counts: Mesh, n_interface: int) -> Imported
 
 
 def measured(mesh: BladeMesh, frame: origin.Frame, tip_cone: float | None) -> MeshedBlade:
-    """Measure length and, if not given in degrees, tip cone of a blade; a ValueError says if it is none.
-
-    The length is that from the clamped nodes to the tip or, without any, the range of the radii.
-    """
+    """Measure length (without clamped nodes the range of radii) and tip cone; ValueError for no blade."""
     blade = MeshedBlade(mesh, profile.cone(mesh.mesh.points[mesh.tip], tip_cone, frame.downstream_x))
     if mesh.root.size:
         if (length := blade.length) <= 0:

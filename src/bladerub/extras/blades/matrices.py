@@ -23,11 +23,9 @@ from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Reduction
 from bladerub.settings.study import Config
 
+# N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it. As
+# the two are equal, frequencies do not show when the wrong system is named.
 _UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
-"""N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
-
-As the two are equal, frequencies do not show when the wrong system is named.
-"""
 _PENALTY = 1e4  # diagonal entry over the median, from which on a coordinate is held
 _STEPS = 60  # of Lanczos's method
 _ROUNDING = 1e-10  # of the largest eigenvalue
@@ -52,11 +50,7 @@ class ImportedMatrices(NamedTuple):
 
 @threadpool_limits.wrap(limits=1)
 def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
-    """Read the matrices of `source`; a BadInput names the file that is not of a blade which can be reduced.
-
-    There must be coordinates enough for the modes of the accuracy table at rest, and for those with a clamped
-    interface.
-    """
+    """Read matrices that have coordinates enough for the modes; a BadInput names file and fault."""
     f_max, n_modes = reduction.f_omega_max, reduction.accuracy_modes
     folder, frame = origin.path(source), origin.frame(source)
     unit = _UNITS[source.matrix_units or "SI"]
@@ -202,16 +196,13 @@ def _wave_speed(stiffness: csc_array, mass: csc_array, layout: MeshedBlade, free
 
 
 def check_definite(matrix: csc_array) -> None:
-    """Raise ValueError if a symmetric matrix has an entry on its diagonal or an eigenvalue below zero.
-
-    Ritz values of Lanczos's method lie between the eigenvalues, so a negative one is proof. Eigenvalues near
-    zero may stay unnoticed (see `check_held` for these).
-    """
+    """Raise ValueError if a symmetric matrix has an entry on its diagonal or an eigenvalue below zero."""
     diagonal = matrix.diagonal()
     low = np.flatnonzero(diagonal <= 0)
     if low.size:
         fault = f"its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}"
         raise ValueError(f"is not positive definite: {fault}; must be above 0")
+    # Ritz values lie between the eigenvalues: a negative one is proof. Near zero `check_held` is needed
     scale = 1 / np.sqrt(diagonal)
     ritz = _ritz_values(lambda vector: scale * (matrix @ (scale * vector)), diagonal.size)
     if ritz.min() < -_ROUNDING * np.abs(ritz).max():

@@ -102,6 +102,8 @@ def _of_blade(source: Source, layout: MeshedBlade, built: BuiltBlade, nominal: f
     errors = errors_by_mode(table)
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     rpm = 60 * built.reduced.f1_hz
+    leading, trailing = built.reduced.node_position[[0, -1]]
+    across = (leading - trailing) @ built.reduced.tangential_direction[[0, -1]].mean(axis=0)
     extents = dict(zip("xyz", points.T, strict=True)) | {"radius": np.hypot(points[:, 1], points[:, 2])}
     return {
         "nodes": len(points),
@@ -111,7 +113,8 @@ def _of_blade(source: Source, layout: MeshedBlade, built: BuiltBlade, nominal: f
         "length": layout.length,
         "tip_cone_degrees": origin.frame(source).downstream_x * float(np.rad2deg(layout.tip_cone)),
         "f1_hz": float(built.frequency[0]),
-        "tip_stagger_degrees": _stagger(built.reduced),
+        # of the tip's chord to the axis, positive where its leading edge is ahead
+        "tip_stagger_degrees": float(np.rad2deg(np.arctan2(across, abs(leading[0] - trailing[0])))),
         "tip_lean": tip_lean(built.reduced).tolist(),
         "crossings": [
             {"order": order, "f_omega": x, "rpm": x * rpm} for order, x in _crossings(built.reduced)
@@ -125,13 +128,6 @@ def _of_blade(source: Source, layout: MeshedBlade, built: BuiltBlade, nominal: f
         "error_eq2": errors.speed_law.tolist(),
         "error_reduced_model": errors.reduced_model.tolist(),
     }
-
-
-def _stagger(blade: ReducedBlade) -> float:
-    """Angle (degrees) of the tip's chord to the axis, positive where its leading edge is ahead."""
-    leading, trailing = blade.node_position[[0, -1]]
-    across = (leading - trailing) @ blade.tangential_direction[[0, -1]].mean(axis=0)
-    return float(np.rad2deg(np.arctan2(across, abs(leading[0] - trailing[0]))))
 
 
 def spanwise_elements(mesh: BladeMesh) -> int:

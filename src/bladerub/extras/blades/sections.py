@@ -125,22 +125,19 @@ class _Curve:
 
 
 def _edge(sides: list[_Curve], thickness: float, name: str) -> tuple[list[float], float]:
-    """Find a leading edge that is wide enough: as it is, between two corners, or after a cut.
-
-    Returns the parameters of both sides behind it, and the chord before, which is cut off.
-    """
+    """Find a leading edge that is wide enough: parameters of both sides behind it, and the chord cut off."""
     min_thickness = EDGE_SHARE * thickness
     first, second = (side.fine[0] for side in sides)
     chord = sides[0].fine[-1] + sides[1].fine[-1] - first - second
     chord /= np.linalg.norm(chord)
-    if abs(_cross(second - first, chord)) >= min_thickness:
+    if abs(_cross(second - first, chord)) >= min_thickness:  # as it is
         return [0.0, 0.0], 0.0
     for index, side in enumerate(sides):
         corners = side.knots[side.corners]
         corners = corners[corners < _LAST_OF_EDGE * side.knots[-1]]
         if corners.size:
             corner = side.place(corners[-1])[3:]
-            if np.linalg.norm(corner - sides[1 - index].fine[0]) >= min_thickness:
+            if np.linalg.norm(corner - sides[1 - index].fine[0]) >= min_thickness:  # between two corners
                 starts = [0.0, 0.0]
                 starts[index] = corners[-1]
                 return starts, 0.0

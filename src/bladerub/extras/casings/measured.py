@@ -21,10 +21,7 @@ _MARKED = 0.1  # of the largest harmonic: those of a measured shape from there o
 
 
 def casing_spec(name: str, entry: MeasuredCasing, length_scale: float) -> Casing:
-    """Describe an entry of ``casings`` in SI units: the measured gap, shifted to its ``interference`` if any.
-
-    Raises `ValueError`, which begins with the key, if the table cannot be read or is none.
-    """
+    """Describe an entry of ``casings``, SI; a ValueError begins with the key of a table that is none."""
     table, interference = entry.table, entry.interference
     path = study_folder() / table.file
     units = UNITS[table.unit or "m"], ANGLE_UNITS[table.angle_unit or "deg"]
@@ -40,6 +37,7 @@ def casing_spec(name: str, entry: MeasuredCasing, length_scale: float) -> Casing
         nodal_diameters=(),
         weights=(),
         amplitude=amplitude,
+        # the measured gap is what it is, or shifted
         interference=-lowest if interference is None else float(interference * length_scale),
         start_angle=math.radians(entry.start_angle),
         measured=tuple(zip(angle.tolist(), inward.tolist(), strict=True)),

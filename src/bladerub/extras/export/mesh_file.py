@@ -87,10 +87,7 @@ def _with_physical_groups(points: np.ndarray, cells: np.ndarray, node_sets) -> m
 
 
 def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
-    """Read the mesh of a blade and how it follows the reduced coordinates from its ``mesh.h5``.
-
-    Raises an OSError that names the file if it is missing, damaged, or not the mesh of this blade.
-    """
+    """Read the mesh of `blade` and its recovery from ``mesh.h5``; an OSError names a file that is none."""
     mesh, _ = hdf5.read(path, _MESH)
     if missing := _MESH - mesh.keys():
         raise OSError(f"{path}: not the mesh of a blade, {', '.join(sorted(missing))} missing")

@@ -35,10 +35,7 @@ class Recording(NamedTuple):
 
 
 def claimed_run(config: Config, file: str, run: StoredRun) -> PlannedRun:
-    """Plan again what a stored run says it is; its own key shows whether `config` and blade made it.
-
-    Raises `KeyError` if the file lacks an attribute of a run, or the config its casing.
-    """
+    """Plan again what a stored run says it is; KeyError for a missing attribute or casing."""
     attributes, case = run.attributes, CoatingCase.described(run.attributes)
     spec = replace(run_spec(config, case, attributes["f_omega"]), revolutions=attributes["revolutions"])
     # as of a short run asked for alone

@@ -34,10 +34,7 @@ class Curve(NamedTuple):
 
 
 def read(path: str | Path, units: Mapping[str, str] | None = None) -> list[Curve]:
-    """Read the curves of a table in the order of their rates; `BadInput` names column, line and value.
-
-    `units` states the units of columns whose header has none.
-    """
+    """Read curves in the order of their rates; `units` of columns that state none; `BadInput` for faults."""
     try:
         return _read(cells.read(Path(path)), units or {})
     except ValueError as error:

@@ -38,10 +38,7 @@ class SampledRun(NamedTuple):
 def simulate_sampled(
     blade: ReducedBlade, spec: RunSpec, instants: int, progress: Callable[[int], None] | None = None
 ) -> SampledRun:
-    """Simulate a run as `bladerub.contact.run.simulate`, sampled at so many `instants` of each revolution.
-
-    One an element at most. `progress` is called with the number of revolutions done after each of them.
-    """
+    """Simulate a run, sampled at `instants` a revolution, one an element at most; raises as `simulate`."""
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     modes, (_, shapes) = modes_at(blade, spec.f_omega, spec), mode_shapes_at(blade, spec.f_omega)
     rule, simulation = set_up(blade, spec, modes)
