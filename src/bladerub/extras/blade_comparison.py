@@ -70,14 +70,9 @@ def runs(
 
 def _of(config: Config, coating: CoatingMap, length: float) -> pd.DataFrame:
     case = coating.case
-    return pd.DataFrame(
-        {
-            **{name: getattr(case, name) for name in ("casing", "E", "K", "theta")},
-            "f_omega": coating.f_omega,
-            "speed": coating.f_omega.round(9),  # of grids with other steps
-            "lobes": coating.lobes,
-            # mean over the casing, over the length of the blade
-            "worn_depth_share": coating.wear.mean(axis=1) / length,
-            "divergent": [verdict.divergent for verdict in divergence.verdicts(config, coating)],
-        }
-    )
+    columns = {name: getattr(case, name) for name in ("casing", "E", "K", "theta")}
+    columns |= {"f_omega": coating.f_omega, "lobes": coating.lobes}
+    columns["speed"] = coating.f_omega.round(9)  # of grids with other steps
+    columns["worn_depth_share"] = coating.wear.mean(axis=1) / length  # mean over casing, of a blade's length
+    columns["divergent"] = [verdict.divergent for verdict in divergence.verdicts(config, coating)]
+    return pd.DataFrame(columns)

@@ -115,13 +115,11 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
             )
 
     change = norm(stiffness_max - stiffness_rest)
-    return ImportedMatrices(
-        DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
-        unit * _rigid_mass(mass_of_all),
-        nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
-        _wave_speed(stiffness_rest, mass, layout, free),
-        float(norm(stiffness_half - stiffness_rest) / change) if change else 0.0,
-    )
+    half_change = float(norm(stiffness_half - stiffness_rest) / change) if change else 0.0
+    is_complete = nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points)
+    wave_speed = _wave_speed(stiffness_rest, mass, layout, free)
+    blade = DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes)
+    return ImportedMatrices(blade, unit * _rigid_mass(mass_of_all), is_complete, wave_speed, half_change)
 
 
 def of_length(config: Config) -> DiscreteBlade:

@@ -32,16 +32,10 @@ def casing_spec(name: str, entry: MeasuredCasing, length_scale: float) -> Casing
         raise ValueError(f"table.file = {table.file}: {error}") from error
     amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
     inward = (np.max(gap) - gap) / amplitude
-    return Casing(
-        name=name,
-        nodal_diameters=(),
-        weights=(),
-        amplitude=amplitude,
-        # the measured gap is what it is, or shifted
-        interference=-lowest if interference is None else float(interference * length_scale),
-        start_angle=math.radians(entry.start_angle),
-        measured=tuple(zip(angle.tolist(), inward.tolist(), strict=True)),
-    )
+    # the measured gap is what it is, or shifted
+    interference = -lowest if interference is None else float(interference * length_scale)
+    measured = tuple(zip(angle.tolist(), inward.tolist(), strict=True))
+    return Casing(name, (), (), amplitude, interference, math.radians(entry.start_angle), measured=measured)
 
 
 def nodal_diameters(entry: MeasuredCasing) -> list[int]:

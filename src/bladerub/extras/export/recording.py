@@ -47,11 +47,7 @@ def claimed_run(config: Config, file: str, run: StoredRun) -> PlannedRun:
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def record(
-    blade: ReducedBlade,
-    spec: RunSpec,
-    row: Row | None,
-    instants: Sequence[int],
-    progress: Callable[[int], None] | None = None,
+    blade: ReducedBlade, spec: RunSpec, row: Row | None, instants: Sequence, progress: Callable | None = None
 ) -> Recording:
     """Simulate as `bladerub.extras.rows.row.simulate_row` a row, or the blade alone; record it at instants.
 

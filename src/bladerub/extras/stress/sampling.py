@@ -53,12 +53,9 @@ def simulate_sampled(
     moving = np.sqrt(rule.share[:n])[:, None] * shapes[:, :n].T
     answer = modes.tip * ((1.0 - rule.share) / modes.omega**2) @ shapes.T
     times = np.add.outer(np.arange(revolutions), ends[1:] / n_elements).ravel()
-    return SampledRun(
-        history.run_result(blade, spec, rule, simulation),
-        times[: sampled.n_sampled],
-        sampled.amplitudes[: sampled.n_sampled],
-        np.vstack([moving, answer]).astype(np.float32),
-    )
+    patterns, n_sampled = np.vstack([moving, answer]).astype(np.float32), sampled.n_sampled
+    result = history.run_result(blade, spec, rule, simulation)
+    return SampledRun(result, times[:n_sampled], sampled.amplitudes[:n_sampled], patterns)
 
 
 class _Sampled:
