@@ -59,11 +59,7 @@ def radial_compliance(blade: ReducedBlade) -> float:
 def runs(
     config: Config, pairs: Iterable[tuple[CoatingMap, CoatingMap]], lengths: tuple[float, float]
 ) -> pd.DataFrame:
-    """Compare the maps of each coating at their common speeds: a row per speed, with `RUN_COLUMNS`.
-
-    The first map of a pair is of the study of `config`, the second of the reference. A worn depth is the mean
-    over the casing, as a share of the length of the blade, which `lengths` (m) has for both.
-    """
+    """Compare maps of this study and of the reference at common speeds: rows of `RUN_COLUMNS`."""
     tables = [pd.DataFrame(columns=RUN_COLUMNS)]
     for one, other in pairs:
         reference = _of(config, other, lengths[1]).add_prefix("reference_")
@@ -74,13 +70,9 @@ def runs(
 
 def _of(config: Config, coating: CoatingMap, length: float) -> pd.DataFrame:
     case = coating.case
-    return pd.DataFrame(
-        {
-            **{name: getattr(case, name) for name in ("casing", "E", "K", "theta")},
-            "f_omega": coating.f_omega,
-            "speed": coating.f_omega.round(9),  # of grids with other steps
-            "lobes": coating.lobes,
-            "worn_depth_share": coating.wear.mean(axis=1) / length,
-            "divergent": [verdict.divergent for verdict in divergence.verdicts(config, coating)],
-        }
-    )
+    columns = {name: getattr(case, name) for name in ("casing", "E", "K", "theta")}
+    columns |= {"f_omega": coating.f_omega, "lobes": coating.lobes}
+    columns["speed"] = coating.f_omega.round(9)  # of grids with other steps
+    columns["worn_depth_share"] = coating.wear.mean(axis=1) / length  # mean over casing, of a blade's length
+    columns["divergent"] = [verdict.divergent for verdict in divergence.verdicts(config, coating)]
+    return pd.DataFrame(columns)

@@ -15,10 +15,7 @@ REDUCED_ERROR = 0.02
 
 
 def errors_by_mode(table: pd.DataFrame) -> pd.DataFrame:
-    """Largest relative errors over the speeds of an `accuracy_table`, a row for each mode.
-
-    Columns ``speed_law`` for eq. (2) alone and ``reduced_model`` for eq. (2) and the reduction together.
-    """
+    """Largest errors by mode in an `accuracy_table`: of eq. (2) alone, and of that with the reduction."""
     speed_law, reduced_model = (table.f_fe_eq2 / table.f_fe - 1).abs(), table.relative_error.abs()
     return table[["mode"]].assign(speed_law=speed_law, reduced_model=reduced_model).groupby("mode").max()
 
@@ -28,24 +25,18 @@ def percent(error: float) -> str:
     return f"{float(f'{100 * error:.2g}'):g}"
 
 
-def _in_rpm(nominal_speed: float | str) -> float:
-    """Return a nominal speed in 1/min; it is checked as that of a config is."""
-    name = "figures.nominal_speed"
-    key = key_at(name)
-    kind = Annotated[float, key.unit, Field(**key.bounds)]
-    try:
-        return checked_number(name, nominal_speed, kind, lambda _: 1.0)
-    except ValueError as error:
-        raise InputError("nominal_speed", nominal_speed, str(error)) from None
-
-
 def doubts(table: pd.DataFrame, nominal_speed: float | str | None = None) -> list[str]:
-    """List the doubts of an accuracy table, as `blade.frequencies.doubts`; `InputError` for no speed.
+    """List the doubts of an accuracy table (`blade.frequencies.doubts`); `InputError` for no speed.
 
     At the speeds of its fit eq. (2) is exact: a table of these alone tells nothing of it.
     """
-    if nominal_speed is not None:
-        nominal_speed = _in_rpm(nominal_speed)
+    if nominal_speed is not None:  # checked as that of a config is; 1/min
+        key = key_at("figures.nominal_speed")
+        kind = Annotated[float, key.unit, Field(**key.bounds)]
+        try:
+            nominal_speed = checked_number("figures.nominal_speed", nominal_speed, kind, lambda _: 1.0)
+        except ValueError as error:
+            raise InputError("nominal_speed", nominal_speed, str(error)) from None
     lines = []
     eq2, reduced = errors_by_mode(table)[:MODES].max()
     fastest, f1_hz = table.f_omega.max(), table.f_fe.iloc[0]

@@ -79,10 +79,7 @@ def solid_mesh(points: np.ndarray, cells: np.ndarray) -> tuple[SolidMesh, np.nda
 
 
 def read_built(reduced_model: Path) -> BuiltBlade:
-    """Read the blade that `bladerub.blade.built.write` wrote: written again, it gives the same bytes.
-
-    Raises an OSError that names the file if one is missing or damaged.
-    """
+    """Read what `bladerub.blade.built.write` wrote, to the last bit; an OSError names a damaged file."""
     path = mesh_path(reduced_model)
     data, attributes = hdf5.read(path)
     try:

@@ -49,27 +49,19 @@ class Cells(NamedTuple):
             )
 
     def column(self, name: str) -> list[str]:
-        """Return the cells of a column; capital and small letters are alike.
-
-        A ValueError names the line where the column is twice, or of a row with more or fewer cells.
-        """
+        """Return the cells of a column, in any case; a ValueError names a line with too many or too few."""
         lower = [column.lower() for column in self.names]
         if lower.count(name.lower()) > 1:
             raise ValueError(f"line {self.header}: has the column {name.lower()} twice")
         for line, row in self.rows.items():
             if len(row) != len(lower):
-                raise ValueError(
-                    f"line {line}: has {len(row)} cells, must have {len(lower)} as the header has (separated "
-                    f"by {self.separator}{self._cure(row)})"
-                )
+                fault = f"has {len(row)} cells, must have {len(lower)} as the header has"
+                raise ValueError(f"line {line}: {fault} (separated by {self.separator}{self._cure(row)})")
         index = lower.index(name.lower())
         return [row[index] for row in self.rows.values()]
 
     def numbers(self, name: str, empty: float = np.nan) -> np.ndarray:
-        """Return the numbers (n_rows,) of a column; a cell with nothing in it is `empty`.
-
-        A ValueError names the line as `column`, or of a cell that is no finite number.
-        """
+        """Return the numbers (n_rows,) of a column, `empty` where none is; ValueError as `column`."""
         numbers, cells = [], self.column(name)
         for line, cell in zip(self.rows, cells, strict=True):
             text = self._with_point(cell)
@@ -90,16 +82,12 @@ class Cells(NamedTuple):
         commas = [(line, cell) for line, cell in numbers if "," in cell]
         if points and commas:
             (line, cell), (other_line, other) = points[0], commas[0]
-            raise ValueError(
-                f"line {line} has {cell} and line {other_line} {other}; all numbers must have the same "
-                "decimal mark, and none between thousands"
-            )
+            right = "all numbers must have the same decimal mark, and none between thousands"
+            raise ValueError(f"line {line} has {cell} and line {other_line} {other}; {right}")
         if commas and all(_THOUSANDS.fullmatch(cell) for _, cell in commas):
-            line, cell = commas[0]
-            raise ValueError(
-                f"line {line} has {cell}: with a decimal comma, or one between thousands? Write "
-                f"{cell.replace(',', '.')} or {cell.replace(',', '')}"
-            )
+            (line, cell), doubt = commas[0], "with a decimal comma, or one between thousands?"
+            cure = f"Write {cell.replace(',', '.')} or {cell.replace(',', '')}"
+            raise ValueError(f"line {line} has {cell}: {doubt} {cure}")
 
     def _with_point(self, cell: str) -> str:
         return cell if self.separator == "commas" else cell.replace(",", ".")

@@ -62,8 +62,11 @@ def import_blade(options: argparse.Namespace) -> None:
     """Read and reduce the blade that the command line names, and print its properties."""
     path = Path(os.path.realpath(options.file))  # Path.resolve fails where links form a circle
     kind = "matrices" if path.is_dir() else "file"
-    if kind == "file":
-        _refuse_at_once(path)
+    if kind == "file":  # what is plainly no blade is refused before anything that takes seconds to import
+        with inputs.refused(ValueError, because=f"{path}: "):
+            origin.check_file(path)
+            if path.suffix.lower() in origin.TABLE_SUFFIXES:
+                section_table.read_cells(path)
     config = inputs.read_config(options)
     folder = study_folder()
     entry_path = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
@@ -85,9 +88,8 @@ def import_blade(options: argparse.Namespace) -> None:
 
     from bladerub.extras.blades.similarity import contact_scale, tip_stiffness
 
-    read_blade = _read_matrices if kind == "matrices" else _read_mesh
     with inputs.refused(ValueError):
-        figures, reduced = read_blade(config, nominal)
+        figures, reduced = _read_blade(config, nominal)
     figures["tip_stiffness"] = tip_stiffness(reduced)
     study = configuration.read(base_config())
     blade = {"length": reduced.length, "source": entry}
@@ -104,26 +106,24 @@ def import_blade(options: argparse.Namespace) -> None:
     inputs.show(options, figures, _in_words)
 
 
-def _refuse_at_once(path: Path) -> None:
-    """Refuse a file that is plainly no blade before anything that takes seconds to import."""
-    with inputs.refused(ValueError, because=f"{path}: "):
-        origin.check_file(path)
-        if path.suffix.lower() in origin.TABLE_SUFFIXES:
-            section_table.read_cells(path)
-
-
 def _changed(group: "Section", of_study: "Section") -> dict[str, Any]:
     """Values that are not those of the study, which the printed config has to give as well."""
     study_values = of_study.plain()
     return {name: value for name, value in group.plain().items() if value != study_values.get(name)}
 
 
-def _read_mesh(config: "Config", nominal: float | None) -> "tuple[dict[str, Any], ReducedBlade]":
-    """Import and reduce the mesh of `config`; return the figures and the reduced blade."""
-    from bladerub.blade.build import reduce_meshed
+def _read_blade(config: "Config", nominal: float | None) -> "tuple[dict[str, Any], ReducedBlade]":
+    """Import, reduce and keep the blade of `config`; return the figures and the reduced blade."""
+    from bladerub.blade.build import reduce_given, reduce_meshed
     from bladerub.blade.model import n_interface
-    from bladerub.extras.blades import importing
-    from bladerub.extras.blades.report import mesh_report
+    from bladerub.extras.blades import importing, matrices, report
+
+    if config.blade.source.matrices:
+        given = matrices.import_matrices(config.blade.source, config.reduction)
+        config = config.replaced("blade.length", round(given.blade.layout.length, 6))
+        built = reduce_given(given.blade, config)
+        importing.keep(built, config)
+        return report.matrix_report(config.blade.source, given, built, nominal), built.reduced
 
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
     speeds = max(_FEWEST_SPEEDS, config.reduction.accuracy_speeds)
@@ -136,7 +136,7 @@ def _read_mesh(config: "Config", nominal: float | None) -> "tuple[dict[str, Any]
     config = config.replaced("blade.length", round(imported.blade.length, 6))
     built = reduce_meshed(imported.blade, config)
     importing.keep(built, config)
-    figures = mesh_report(source, imported, built, material, nominal) | {"material": material.plain()}
+    figures = report.mesh_report(source, imported, built, material, nominal) | {"material": material.plain()}
     figures["warnings"] = [*filter(None, [doubt]), *figures["warnings"]]
     return figures, built.reduced
 
@@ -158,20 +158,6 @@ def _take_material(config: "Config") -> "tuple[Config, str | None]":
 
 def _of_material(material: dict[str, float]) -> str:
     return "{young_modulus:g} Pa, {poisson_ratio:g}, {density:g} kg/m³".format(**material)
-
-
-def _read_matrices(config: "Config", nominal: float | None) -> "tuple[dict[str, Any], ReducedBlade]":
-    """Import and reduce the matrices of `config`; return the figures and the reduced blade."""
-    from bladerub.blade.build import reduce_given
-    from bladerub.extras.blades.importing import keep
-    from bladerub.extras.blades.matrices import import_matrices
-    from bladerub.extras.blades.report import matrix_report
-
-    imported = import_matrices(config.blade.source, config.reduction)
-    config = config.replaced("blade.length", round(imported.blade.layout.length, 6))
-    built = reduce_given(imported.blade, config)
-    keep(built, config)
-    return matrix_report(config.blade.source, imported, built, nominal), built.reduced
 
 
 def _of_mesh(blade: SimpleNamespace) -> dict[str, str]:
@@ -241,11 +227,6 @@ def _in_words(figures: dict[str, Any]) -> str:
     }
     if blade.nominal_speed:
         rows["nominal speed"] = f"{blade.nominal_speed:g} 1/min, f_omega = {blade.nominal_f_omega:.4g}"
-    return "\n".join(
-        [
-            *inputs.aligned([*rows.items(), *(("warning", line) for line in blade.warnings)]),
-            "",
-            "# for the config of its study; without contact.scale the values of the contact are absolute",
-            yaml.safe_dump(blade.config, sort_keys=False).rstrip(),
-        ]
-    )
+    lines = inputs.aligned([*rows.items(), *(("warning", line) for line in blade.warnings)])
+    note = "# for the config of its study; without contact.scale the values of the contact are absolute"
+    return "\n".join([*lines, "", note, yaml.safe_dump(blade.config, sort_keys=False).rstrip()])

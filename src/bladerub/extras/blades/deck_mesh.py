@@ -46,12 +46,9 @@ def read(path: Path) -> Content:
             volume_sets.append(name)
         else:
             node_sets.setdefault(name, model.nodes_of(numbers))
-    return Content(
-        np.array(model.points),
-        {kind: np.array(rows) for kind, rows in cells.items()},
-        {name: np.array([model.rows[node] for node in nodes], int) for name, nodes in node_sets.items()},
-        volume_sets,
-    )
+    solids = {kind: np.array(rows) for kind, rows in cells.items()}
+    sets = {name: np.array([model.rows[node] for node in nodes], int) for name, nodes in node_sets.items()}
+    return Content(np.array(model.points), solids, sets, volume_sets)
 
 
 def _check(blocks: list[Block]) -> None:

@@ -45,10 +45,7 @@ class Imported(NamedTuple):
 
 
 def import_blade(source: Source, counts: Mesh, n_interface: int = N_INTERFACE) -> Imported:
-    """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong.
-
-    The tip gets `n_interface` interface nodes.
-    """
+    """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong."""
     with origin.naming(origin.path(source)):
         if origin.is_table(source):
             return _import_sections(source, counts, n_interface)
@@ -106,10 +103,9 @@ def check_joined(cells: np.ndarray) -> None:
         )
     sizes = np.unique(connected(cells), return_counts=True)[1]
     if sizes.size > 1:
-        raise ValueError(
-            f"has {sizes.size} bodies that share no nodes, of {', '.join(map(str, sizes[:4]))} elements; "
-            "must be one blade: merge nodes where they touch, or leave the others out"
-        )
+        fault = f"has {sizes.size} bodies that share no nodes, of {', '.join(map(str, sizes[:4]))} elements"
+        right = "must be one blade: merge nodes where they touch, or leave the others out"
+        raise ValueError(f"{fault}; {right}")
 
 
 def connected(cells: np.ndarray) -> np.ndarray:
@@ -138,10 +134,8 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
     if len(misplaced):
         element, edge = misplaced[0]
         number = cells.shape[1] - ends.shape[1] + edge + 1
-        raise ValueError(
-            f"element {element + 1}: its {number}th node is not in the middle of its edge; nodes must be in "
-            "the order of CalculiX and VTK"
-        )
+        fault = f"element {element + 1}: its {number}th node is not in the middle of its edge"
+        raise ValueError(f"{fault}; nodes must be in the order of CalculiX and VTK")
 
 
 def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
@@ -153,10 +147,8 @@ def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
     flat = _FLAT * np.ptp(mesh.points[mesh.cells], axis=1).max(axis=1, keepdims=True) ** 3
     bad = np.flatnonzero((determinant <= flat).any(axis=1))
     if bad.size:
-        raise ValueError(
-            f"element {bad[0] + 1}: its Jacobian is zero or negative, it is flat or turned inside out "
-            f"({bad.size} such of {len(determinant)})"
-        )
+        fault = "its Jacobian is zero or negative, it is flat or turned inside out"
+        raise ValueError(f"element {bad[0] + 1}: {fault} ({bad.size} such of {len(determinant)})")
     return determinant.min(axis=1) / determinant.max(axis=1), float(np.sum(determinant @ weights))
 
 
@@ -230,10 +222,7 @@ def _import_sections(source: Source, counts: Mesh, n_interface: int) -> Imported
 
 
 def measured(mesh: BladeMesh, frame: origin.Frame, tip_cone: float | None) -> MeshedBlade:
-    """Measure length and, if not given in degrees, tip cone of a blade; a ValueError says if it is none.
-
-    The length is that from the clamped nodes to the tip or, without any, the range of the radii.
-    """
+    """Measure length (without clamped nodes the range of radii) and tip cone; ValueError for no blade."""
     blade = MeshedBlade(mesh, profile.cone(mesh.mesh.points[mesh.tip], tip_cone, frame.downstream_x))
     if mesh.root.size:
         if (length := blade.length) <= 0:

@@ -23,11 +23,9 @@ from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Reduction
 from bladerub.settings.study import Config
 
+# N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it. As
+# the two are equal, frequencies do not show when the wrong system is named.
 _UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
-"""N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
-
-As the two are equal, frequencies do not show when the wrong system is named.
-"""
 _PENALTY = 1e4  # diagonal entry over the median, from which on a coordinate is held
 _STEPS = 60  # of Lanczos's method
 _ROUNDING = 1e-10  # of the largest eigenvalue
@@ -52,11 +50,7 @@ class ImportedMatrices(NamedTuple):
 
 @threadpool_limits.wrap(limits=1)
 def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
-    """Read the matrices of `source`; a BadInput names the file that is not of a blade which can be reduced.
-
-    There must be coordinates enough for the modes of the accuracy table at rest, and for those with a clamped
-    interface.
-    """
+    """Read matrices that have coordinates enough for the modes; a BadInput names file and fault."""
     f_max, n_modes = reduction.f_omega_max, reduction.accuracy_modes
     folder, frame = origin.path(source), origin.frame(source)
     unit = _UNITS[source.matrix_units or "SI"]
@@ -70,10 +64,8 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
         n_internal = free.free.size - 3 * nodes.interface.size
         n_required = max(n_modes, reduction.modes_per_speed)
         if n_internal <= n_required:
-            raise ValueError(
-                f"has {n_internal} free coordinates off the interface; must have more than {n_required}, the "
-                "modes that are wanted"
-            )
+            right = f"must have more than {n_required}, the modes that are wanted"
+            raise ValueError(f"has {n_internal} free coordinates off the interface; {right}")
 
     def read(name: str) -> tuple[csc_array, csc_array]:
         with naming(names[name]):
@@ -123,13 +115,11 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
             )
 
     change = norm(stiffness_max - stiffness_rest)
-    return ImportedMatrices(
-        DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
-        unit * _rigid_mass(mass_of_all),
-        nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
-        _wave_speed(stiffness_rest, mass, layout, free),
-        float(norm(stiffness_half - stiffness_rest) / change) if change else 0.0,
-    )
+    half_change = float(norm(stiffness_half - stiffness_rest) / change) if change else 0.0
+    is_complete = nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points)
+    wave_speed = _wave_speed(stiffness_rest, mass, layout, free)
+    blade = DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes)
+    return ImportedMatrices(blade, unit * _rigid_mass(mass_of_all), is_complete, wave_speed, half_change)
 
 
 def of_length(config: Config) -> DiscreteBlade:
@@ -141,10 +131,8 @@ def of_length(config: Config) -> DiscreteBlade:
     if imported.is_rooted:
         check_length(length, layout.length, folder)
     elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < tip_radius:
-        raise BadInput(
-            f"blade.length = {length:g}: must be that of the blade in {folder}, whose nodes reach "
-            f"over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
-        )
+        reach = f"whose nodes reach over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
+        raise BadInput(f"blade.length = {length:g}: must be that of the blade in {folder}, {reach}")
     return imported.blade
 
 
@@ -167,10 +155,8 @@ def _layout(nodes: matrix_folder.Nodes, frame: Frame, tip_cone: float | None) ->
         first, second = twins[0] + 1
         raise ValueError(f"interface nodes {first} and {second} are in one place")
     if frame.downstream_x * (ends[-1, 0] - ends[0, 0]) <= 0:
-        raise ValueError(
-            f"interface node 1 is downstream of node {len(ends)}; must be at the leading edge: is downstream "
-            f"= {frame.downstream} the direction of the flow?"
-        )
+        right = f"must be at the leading edge: is downstream = {frame.downstream} the direction of the flow?"
+        raise ValueError(f"interface node 1 is downstream of node {len(ends)}; {right}")
     tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
     mesh = BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface)
     return measured(mesh, frame, tip_cone)
@@ -208,18 +194,13 @@ def _wave_speed(stiffness: csc_array, mass: csc_array, layout: MeshedBlade, free
 
 
 def check_definite(matrix: csc_array) -> None:
-    """Raise ValueError if a symmetric matrix has an entry on its diagonal or an eigenvalue below zero.
-
-    Ritz values of Lanczos's method lie between the eigenvalues, so a negative one is proof. Eigenvalues near
-    zero may stay unnoticed (see `check_held` for these).
-    """
+    """Raise ValueError if a symmetric matrix has an entry on its diagonal or an eigenvalue below zero."""
     diagonal = matrix.diagonal()
     low = np.flatnonzero(diagonal <= 0)
     if low.size:
-        raise ValueError(
-            f"is not positive definite: its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}; "
-            "must be above 0"
-        )
+        fault = f"its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}"
+        raise ValueError(f"is not positive definite: {fault}; must be above 0")
+    # Ritz values lie between the eigenvalues: a negative one is proof. Near zero `check_held` is needed
     scale = 1 / np.sqrt(diagonal)
     ritz = _ritz_values(lambda vector: scale * (matrix @ (scale * vector)), diagonal.size)
     if ritz.min() < -_ROUNDING * np.abs(ritz).max():
@@ -247,7 +228,5 @@ def check_held(stiffness: csc_array, mode: np.ndarray) -> None:
     """Raise ValueError if the energy of the lowest `mode` of a stiffness is negative or only rounding."""
     size = np.abs(mode)
     if mode @ (stiffness @ mode) <= _ENERGY * (size @ (abs(stiffness) @ size)):
-        raise ValueError(
-            "is singular or indefinite: its lowest mode moves the blade without resistance; mark the clamped "
-            "nodes, or leave their rows out"
-        )
+        fault = "is singular or indefinite: its lowest mode moves the blade without resistance"
+        raise ValueError(f"{fault}; mark the clamped nodes, or leave their rows out")

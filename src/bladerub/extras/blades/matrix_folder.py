@@ -69,15 +69,13 @@ def files(folder: Path) -> dict[str, Path]:
 def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
     """Find the stiffness at each normalised speed, ascending; a ValueError names one without such a speed."""
     names_by_speed = dict(zip(fit, FIT, strict=True))
+    right = f"between 0 and reduction.f_omega_max = {fit[-1]:g}, and none that another file has"
     for name in names:
         if name.startswith(AT_SPEED):
             text = name.removeprefix(AT_SPEED)
             speed = float(text) if re.fullmatch(r"\d*\.?\d+", text) else None
             if speed is None or not fit[0] < speed < fit[-1] or speed in names_by_speed:
-                raise ValueError(
-                    f"{names[name].name}: must be named after its normalised speed, between 0 and "
-                    f"reduction.f_omega_max = {fit[-1]:g}, and none that another file has"
-                )
+                raise ValueError(f"{names[name].name}: must be named after its normalised speed, {right}")
             names_by_speed[speed] = name
     return dict(sorted(names_by_speed.items()))
 

@@ -4,7 +4,7 @@ import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from bladerub.extras.blades import origin
+from bladerub.extras.blades import matrix_folder, origin
 from bladerub.extras.blades.settings import Source
 from bladerub.io.checksum import file_checksum
 from bladerub.settings.blade import Blade
@@ -23,8 +23,6 @@ def problems(config: Config) -> Iterator[str]:
 
 def recipe(blade: Blade) -> dict[str, Any]:
     """Reduce the block ``blade`` to what determines the blade, with the content of its files."""
-    from bladerub.extras.blades import matrix_folder
-
     paths = matrix_folder.files(origin.path(blade.source))
     content = {name: file_checksum(path) for name, path in paths.items()}
     return {"length": blade.length, "source": origin.settings(blade.source) | {"matrices": content}}
@@ -32,10 +30,8 @@ def recipe(blade: Blade) -> dict[str, Any]:
 
 def files(source: Source) -> list[str]:
     """List the files of the block ``source``; ValueError if one is missing."""
-    from bladerub.extras.blades import matrix_folder
-
-    paths = matrix_folder.files(origin.path(source))
-    return [os.path.join(source.matrices, path.name) for path in paths.values()]
+    paths = matrix_folder.files(origin.path(source)).values()
+    return [os.path.join(source.matrices, path.name) for path in paths]
 
 
 def build(config: Config) -> "BuiltBlade":

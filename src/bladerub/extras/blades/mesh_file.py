@@ -41,13 +41,10 @@ class MeshFile(NamedTuple):
 
 
 def read(path: Path) -> MeshFile:
-    """Read the mesh at `path`; a ValueError says why it cannot be used.
-
-    Elements of 8 and 4 nodes, far too stiff in bending, become such of 20 and 10 with straight edges.
-    """
+    """Read a mesh, or say in a ValueError why not; linear elements, too stiff, get mid-side nodes."""
     origin.check_file(path)
     _check_ends(path)
-    content = deck_mesh.read(path) if path.suffix.lower() == ".inp" else _of_meshio(_read_by_meshio(path))
+    content = deck_mesh.read(path) if path.suffix.lower() == ".inp" else _read_by_meshio(path)
     cells = _volume(content)
     points = np.asarray(content.points, dtype=float)
     if points.shape[1:] != (3,):
@@ -58,7 +55,7 @@ def read(path: Path) -> MeshFile:
     return MeshFile(points, cells, content.node_sets, content.volume_sets, is_linear)
 
 
-def _read_by_meshio(path: Path) -> meshio.Mesh:
+def _read_by_meshio(path: Path) -> Content:
     warnings = io.StringIO()
     try:
         with redirect_stderr(warnings):  # where meshio prints them
@@ -67,7 +64,15 @@ def _read_by_meshio(path: Path) -> meshio.Mesh:
         origin.refuse_content(path, error)
     if warnings.getvalue():
         log.warning("%s: %s", path, " ".join(warnings.getvalue().split()))
-    return mesh
+    solids: dict[str, list[np.ndarray]] = {}
+    for block in mesh.cells:
+        if block.dim == 3 and len(block):
+            solids.setdefault(block.type, []).append(np.asarray(block.data, dtype=int))
+    cells = {kind: np.concatenate(blocks) for kind, blocks in solids.items()}
+    for kind, nodes in cells.items():  # Gmsh has an element again for each of its physical groups
+        cells[kind] = nodes[np.sort(np.unique(nodes, axis=0, return_index=True)[1])]
+    volume_sets = [name for name, (_, dimension) in mesh.field_data.items() if dimension == 3]
+    return Content(mesh.points, cells, _node_sets(mesh), volume_sets)
 
 
 def _check_ends(path: Path) -> None:
@@ -95,18 +100,6 @@ def raised(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarra
     edges, edge = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
     middle = len(points) + edge.reshape(len(cells), -1)
     return np.vstack([points, points[edges].mean(axis=1)]), np.hstack([cells, middle])
-
-
-def _of_meshio(mesh: meshio.Mesh) -> Content:
-    solids: dict[str, list[np.ndarray]] = {}
-    for block in mesh.cells:
-        if block.dim == 3 and len(block):
-            solids.setdefault(block.type, []).append(np.asarray(block.data, dtype=int))
-    cells = {kind: np.concatenate(blocks) for kind, blocks in solids.items()}
-    for kind, nodes in cells.items():  # Gmsh has an element again for each of its physical groups
-        cells[kind] = nodes[np.sort(np.unique(nodes, axis=0, return_index=True)[1])]
-    volume_sets = [name for name, (_, dimension) in mesh.field_data.items() if dimension == 3]
-    return Content(mesh.points, cells, _node_sets(mesh), volume_sets)
 
 
 def _volume(content: Content) -> np.ndarray:

@@ -95,7 +95,9 @@ def interface(
     nodes = np.unique(faces)
     if nodes.size < n_nodes:
         raise ValueError(f"the tip has {nodes.size} nodes; must have {n_nodes} or more")
-    flat = _unrolled(points, *points[nodes, 1:].mean(axis=0))
+    y, z = points[nodes, 1:].mean(axis=0)
+    phi = np.arctan2(points[:, 1] * z - points[:, 2] * y, points[:, 2] * z + points[:, 1] * y)
+    flat = np.stack([points[:, 0], np.hypot(points[:, 1], points[:, 2]) * phi], axis=1)
     try:
         line = camber_line(flat[_outline(faces)])
     except ValueError as error:
@@ -109,18 +111,9 @@ def interface(
     indices = linear_sum_assignment(distance**2)[1]
     offset = distance[np.arange(n_nodes), indices].max()
     if offset > arc[-1] / (2 * (n_nodes - 1)):
-        raise ValueError(
-            f"the tip is too coarse: an interface node would be {offset:.3g} m off its place on a camber "
-            f"line of {arc[-1]:.3g} m"
-        )
+        fault = f"an interface node would be {offset:.3g} m off its place on a camber line of {arc[-1]:.3g} m"
+        raise ValueError(f"the tip is too coarse: {fault}")
     return nodes[indices], float(arc[-1]), float(offset)
-
-
-def _unrolled(points: np.ndarray, y: float, z: float) -> np.ndarray:
-    """Axial position and arc length about the engine axis (n, 2) of `points` (n, 3), from `y`, `z` on."""
-    radius = np.hypot(points[:, 1], points[:, 2])
-    phi = np.arctan2(points[:, 1] * z - points[:, 2] * y, points[:, 2] * z + points[:, 1] * y)
-    return np.stack([points[:, 0], radius * phi], axis=1)
 
 
 def _outline(faces: np.ndarray) -> np.ndarray:

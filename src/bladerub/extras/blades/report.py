@@ -101,6 +101,8 @@ def _of_blade(source: Source, layout: MeshedBlade, built: BuiltBlade, nominal: f
     errors = errors_by_mode(table)
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     rpm = 60 * built.reduced.f1_hz
+    leading, trailing = built.reduced.node_position[[0, -1]]
+    across = (leading - trailing) @ built.reduced.tangential_direction[[0, -1]].mean(axis=0)
     extents = dict(zip("xyz", points.T, strict=True)) | {"radius": np.hypot(points[:, 1], points[:, 2])}
     return {
         "nodes": len(points),
@@ -110,7 +112,8 @@ def _of_blade(source: Source, layout: MeshedBlade, built: BuiltBlade, nominal: f
         "length": layout.length,
         "tip_cone_degrees": origin.frame(source).downstream_x * float(np.rad2deg(layout.tip_cone)),
         "f1_hz": float(built.frequency[0]),
-        "tip_stagger_degrees": _stagger(built.reduced),
+        # of the tip's chord to the axis, positive where its leading edge is ahead
+        "tip_stagger_degrees": float(np.rad2deg(np.arctan2(across, abs(leading[0] - trailing[0])))),
         "tip_lean": tip_lean(built.reduced).tolist(),
         "crossings": [
             {"order": order, "f_omega": x, "rpm": x * rpm} for order, x in _crossings(built.reduced)
@@ -124,13 +127,6 @@ def _of_blade(source: Source, layout: MeshedBlade, built: BuiltBlade, nominal: f
         "error_eq2": errors.speed_law.tolist(),
         "error_reduced_model": errors.reduced_model.tolist(),
     }
-
-
-def _stagger(blade: ReducedBlade) -> float:
-    """Angle (degrees) of the tip's chord to the axis, positive where its leading edge is ahead."""
-    leading, trailing = blade.node_position[[0, -1]]
-    across = (leading - trailing) @ blade.tangential_direction[[0, -1]].mean(axis=0)
-    return float(np.rad2deg(np.arctan2(across, abs(leading[0] - trailing[0]))))
 
 
 def spanwise_elements(mesh: BladeMesh) -> int:
@@ -150,15 +146,12 @@ def _warn_of_frame(figures: dict[str, Any], source: Source, points: np.ndarray) 
     if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
         yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
     if abs(lean) > LARGEST_LEAN:
-        yield (
-            f"its middle is {lean:.3g} degrees about the engine axis from the radial axis "
-            f"{frame.radial}: is that the right axis, and is the origin on the engine axis?"
-        )
+        place = f"{lean:.3g} degrees about the engine axis from the radial axis {frame.radial}"
+        yield f"its middle is {place}: is that the right axis, and is the origin on the engine axis?"
     if stagger < LEAST_STAGGER:
-        yield (
-            f"the leading edge of the tip is {-stagger:.3g} degrees behind its trailing edge in rotation: "
-            f"has rotation = {frame.rotation} or downstream = {frame.downstream} the wrong sign?"
-        )
+        doubt = f"has rotation = {frame.rotation} or downstream = {frame.downstream} the wrong sign?"
+        behind = f"{-stagger:.3g} degrees behind its trailing edge in rotation"
+        yield f"the leading edge of the tip is {behind}: {doubt}"
 
 
 def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
@@ -211,22 +204,17 @@ def _warn_of_matrices(figures: dict[str, Any], imported: ImportedMatrices, sourc
     yield from _warn_of_frame(figures, source, points)
     box = np.prod(np.ptp(points, axis=0))
     if not DENSITIES[0] * box <= figures["mass"] <= DENSITIES[1] * box:
-        yield (
-            f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are the matrices in "
-            f"{source.matrix_units or 'SI'}, and the nodes in {origin.frame(source).unit}?"
-        )
+        units = f"the matrices in {source.matrix_units or 'SI'}, and the nodes in {origin.frame(source).unit}"
+        yield f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are {units}?"
     if not WAVE_SPEEDS[0] <= imported.wave_speed <= WAVE_SPEEDS[1]:
-        yield (
-            f"waves in its material would have {imported.wave_speed:.3g} m/s, in metals 4000 to 6500: are "
-            "mass, stiffness and nodes in units that go together?"
-        )
+        fault = f"waves in its material would have {imported.wave_speed:.3g} m/s, in metals 4000 to 6500"
+        yield f"{fault}: are mass, stiffness and nodes in units that go together?"
     if not imported.is_rooted:
         yield f"no node is clamped in nodes.csv: set blade.length (all reach over {figures['length']:.4g} m)"
     if not HALF_SPEED_CHANGE[0] <= imported.half_speed_change <= HALF_SPEED_CHANGE[1]:
-        yield (
-            f"stiffness_half shows {imported.half_speed_change:.2g} of the change from stiffness_rest to "
-            "stiffness_max, not about a quarter: do the names of the files state their speeds?"
-        )
+        share = f"{imported.half_speed_change:.2g} of the change from stiffness_rest to stiffness_max"
+        doubt = "do the names of the files state their speeds?"
+        yield f"stiffness_half shows {share}, not about a quarter: {doubt}"
     if len(figures["speeds"]) == 3:
         yield "the error of eq. (2) is not known at the three speeds of its fit: add stiffness_at_<f_omega>"
 

@@ -51,10 +51,8 @@ def check_same_nodes(mass: csc_array, stiffness: csc_array, rows: np.ndarray) ->
     if norm(outside) > _UNEQUAL * norm(pairs):
         worst = int(np.argmax(outside.data))
         both = sorted((rows[outside.row[worst]], rows[outside.col[worst]]))
-        raise ValueError(
-            f"joins the nodes in rows {both[0]} and {both[1]} of nodes.csv, which stiffness_rest does not; "
-            "both must have the order of nodes.csv"
-        )
+        fault = f"joins the nodes in rows {both[0]} and {both[1]} of nodes.csv, which stiffness_rest does not"
+        raise ValueError(f"{fault}; both must have the order of nodes.csv")
 
 
 def check_change(stiffness: csc_array, stiffness_rest: csc_array, rows: np.ndarray) -> None:
@@ -62,10 +60,9 @@ def check_change(stiffness: csc_array, stiffness_rest: csc_array, rows: np.ndarr
     change, size = (norm(_pairs(matrix), axis=1) for matrix in (stiffness - stiffness_rest, stiffness_rest))
     bad = change > _CHANGED * size
     if bad.any():
-        raise ValueError(
-            f"differs from stiffness_rest by up to {(change / size).max():.0%} at {_named(rows[bad])}; both "
-            "must have the same order and units, as rotation changes hundredths"
-        )
+        fault = f"differs from stiffness_rest by up to {(change / size).max():.0%} at {_named(rows[bad])}"
+        right = "both must have the same order and units, as rotation changes hundredths"
+        raise ValueError(f"{fault}; {right}")
 
 
 def check_stiffness(
@@ -186,9 +183,8 @@ def _check_coordinates(
         order = np.arange(matrix.shape[0]).reshape(3, -1).T.ravel()  # from all x, then all y, then all z
         is_by_direction = not is_bad(matrix[order][:, order]).any()
         has = "it has all x, then all y, then all z" if is_by_direction else "are coordinates exchanged?"
-        raise ValueError(
-            f"{fault} at {_named(rows[bad])}; must have x, y, z node by node, in the axes of nodes.csv: {has}"
-        )
+        right = f"must have x, y, z node by node, in the axes of nodes.csv: {has}"
+        raise ValueError(f"{fault} at {_named(rows[bad])}; {right}")
 
 
 def _named(rows: np.ndarray) -> str:

@@ -45,10 +45,8 @@ def read(path: Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
     for name, group in groupby(range(len(names)), names.__getitem__):
         rows = [*group]
         if name in sections:
-            raise ValueError(
-                f"line {lines[rows[0]]}: section {name} comes back; all its stations must follow line "
-                f"{sections[name].lines[0]}"
-            )
+            right = f"all its stations must follow line {sections[name].lines[0]}"
+            raise ValueError(f"line {lines[rows[0]]}: section {name} comes back; {right}")
         values = {column: of_all[rows] for column, of_all in numbers.items()}
         label = f"section {name} (line {lines[rows[0]]})"
         sections[name] = Section(name, lines[rows], _points(label, lines[rows], values, frame, angle_unit))
@@ -86,10 +84,8 @@ def _points(label: str, lines: np.ndarray, values: Mapping, frame: Frame, angle_
             raise ValueError(f"line {lines[inside][0]}: r = {radius[inside][0]:g}, must be above 0")
         angles = ANGLE_UNITS[angle_unit] * np.stack([values["theta1"], values["theta2"]])
         if np.ptp(angles) > np.pi:
-            raise ValueError(
-                f"{label}: its angles go over {np.ptp(angles):.3g} rad, more than half around the axis; are "
-                f"they in {angle_unit}?"
-            )
+            fault = f"its angles go over {np.ptp(angles):.3g} rad, more than half around the axis"
+            raise ValueError(f"{label}: {fault}; are they in {angle_unit}?")
         sides = [frame.cartesian(z, radius, theta) for theta in angles]
     else:
         sides = [np.stack([values[axis] for axis in side], axis=1) for side in (POINTS[:3], POINTS[3:])]

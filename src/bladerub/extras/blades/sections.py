@@ -85,19 +85,17 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
             "trailing edge, each section once, under a name of its own"
         )
     if downstream_x * chord[0] < -1e-3 * length:
-        raise ValueError(
-            f"section {section.name} (line {section.lines[0]}): its first station lies downstream of its "
-            "last; must begin at the leading edge, or blade.source.downstream has the wrong sign"
-        )
+        fault = "its first station lies downstream of its last; must begin at the leading edge, or"
+        label = f"section {section.name} (line {section.lines[0]})"
+        raise ValueError(f"{label}: {fault} blade.source.downstream has the wrong sign")
     thickness = _cross(np.gradient(middle, axis=0), flat[1] - flat[0])
     sign = 1 if thickness.sum() > 0 else -1
     bad = sign * thickness < -1e-9 * np.abs(thickness).max()
     bad[1:-1] |= thickness[1:-1] == 0
     if bad.any():
-        raise ValueError(
-            f"line {section.lines[np.argmax(bad)]}: the sides of section {section.name} touch or cross here; "
-            "they may meet at its first and last station only"
-        )
+        fault = f"the sides of section {section.name} touch or cross here"
+        right = "they may meet at its first and last station only"
+        raise ValueError(f"line {section.lines[np.argmax(bad)]}: {fault}; {right}")
     return sign < 0
 
 
@@ -127,22 +125,19 @@ class _Curve:
 
 
 def _edge(sides: list[_Curve], thickness: float, name: str) -> tuple[list[float], float]:
-    """Find a leading edge that is wide enough: as it is, between two corners, or after a cut.
-
-    Returns the parameters of both sides behind it, and the chord before, which is cut off.
-    """
+    """Find a leading edge that is wide enough: parameters of both sides behind it, and the chord cut off."""
     min_thickness = EDGE_SHARE * thickness
     first, second = (side.fine[0] for side in sides)
     chord = sides[0].fine[-1] + sides[1].fine[-1] - first - second
     chord /= np.linalg.norm(chord)
-    if abs(_cross(second - first, chord)) >= min_thickness:
+    if abs(_cross(second - first, chord)) >= min_thickness:  # as it is
         return [0.0, 0.0], 0.0
     for index, side in enumerate(sides):
         corners = side.knots[side.corners]
         corners = corners[corners < _LAST_OF_EDGE * side.knots[-1]]
         if corners.size:
             corner = side.place(corners[-1])[3:]
-            if np.linalg.norm(corner - sides[1 - index].fine[0]) >= min_thickness:
+            if np.linalg.norm(corner - sides[1 - index].fine[0]) >= min_thickness:  # between two corners
                 starts = [0.0, 0.0]
                 starts[index] = corners[-1]
                 return starts, 0.0
@@ -254,10 +249,9 @@ def _check_units(sections: list[Section], frame: Frame) -> None:
     for section in sections:
         chord = np.linalg.norm(np.ptp(section.points.mean(axis=0)[[0, -1]], axis=0))
         if chord > WIDEST * length:
-            raise ValueError(
-                f"section {section.name} (line {section.lines[0]}): its chord of {chord:.4g} m is more than "
-                f"{WIDEST:g} times the length of the blade, {length:.4g} m; all lengths must be in one unit"
-            )
+            label = f"section {section.name} (line {section.lines[0]}): its chord of {chord:.4g} m"
+            fault = f"is more than {WIDEST:g} times the length of the blade, {length:.4g} m"
+            raise ValueError(f"{label} {fault}; all lengths must be in one unit")
 
 
 def _check(profiles: list[Profile]) -> None:
@@ -278,7 +272,5 @@ def _check(profiles: list[Profile]) -> None:
         gap = above.samples[..., 1] - below.samples[..., 1]
         if gap.min() <= 0:
             share = SAMPLES[np.argmin(gap.min(axis=1))]
-            raise ValueError(
-                f"sections {below.name} and {above.name} cross: {above.name} is not the farther from the "
-                f"engine axis at {share:.0%} of the chord"
-            )
+            fault = f"is not the farther from the engine axis at {share:.0%} of the chord"
+            raise ValueError(f"sections {below.name} and {above.name} cross: {above.name} {fault}")

@@ -13,9 +13,7 @@ from bladerub.extras.casings.settings import MeasuredCasing
 from bladerub.extras.cells import ANGLE_UNITS, UNITS
 from bladerub.io.folders import study_folder
 
-MEASURED_ANGLES = (8, 10_000)
-"""Fewest and most angles of a measured gap."""
-
+MEASURED_ANGLES = (8, 10_000)  # fewest and most of a measured gap
 _WIDEST_STEP = np.pi / 2  # rad, between angles of a measured gap: from there on an oval is not resolved
 _UNEVEN = 4.0  # widest step over the next; beyond, a part of the turn is missing
 _HIGHEST_HARMONIC = 100
@@ -23,11 +21,7 @@ _MARKED = 0.1  # of the largest harmonic: those of a measured shape from there o
 
 
 def casing_spec(name: str, entry: MeasuredCasing, length_scale: float) -> Casing:
-    """Describe an entry of ``casings`` in SI units; the measured gap is what it is.
-
-    With an ``interference`` beside the table, it is shifted to that. Raises `ValueError`, which begins with
-    the key, if the table cannot be read or is none.
-    """
+    """Describe an entry of ``casings``, SI; a ValueError begins with the key of a table that is none."""
     table, interference = entry.table, entry.interference
     path = study_folder() / table.file
     units = UNITS[table.unit or "m"], ANGLE_UNITS[table.angle_unit or "deg"]
@@ -38,15 +32,10 @@ def casing_spec(name: str, entry: MeasuredCasing, length_scale: float) -> Casing
         raise ValueError(f"table.file = {table.file}: {error}") from error
     amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
     inward = (np.max(gap) - gap) / amplitude
-    return Casing(
-        name=name,
-        nodal_diameters=(),
-        weights=(),
-        amplitude=amplitude,
-        interference=-lowest if interference is None else float(interference * length_scale),
-        start_angle=math.radians(entry.start_angle),
-        measured=tuple(zip(angle.tolist(), inward.tolist(), strict=True)),
-    )
+    # the measured gap is what it is, or shifted
+    interference = -lowest if interference is None else float(interference * length_scale)
+    measured = tuple(zip(angle.tolist(), inward.tolist(), strict=True))
+    return Casing(name, (), (), amplitude, interference, math.radians(entry.start_angle), measured=measured)
 
 
 def nodal_diameters(entry: MeasuredCasing) -> list[int]:
@@ -73,10 +62,8 @@ def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tupl
     if (back := np.diff(angle) <= 0).any():
         raise ValueError(f"line {lines[back.argmax() + 1]}: angle must be above that of the row before")
     if angle[-1] - angle[0] >= turn:
-        raise ValueError(
-            f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; must stay within a turn, without "
-            "a row that repeats the first angle"
-        )
+        right = "must stay within a turn, without a row that repeats the first angle"
+        raise ValueError(f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; {right}")
     if np.ptp(gap) == 0:
         raise ValueError(f"has the same gap everywhere, {gap[0]:g} m; must vary")
     steps = np.diff(angle, append=angle[0] + 2 * np.pi)

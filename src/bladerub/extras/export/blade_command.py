@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
-from bladerub.cli.inputs import refused
 from bladerub.io.errors import BadInput
 from bladerub.settings.units import speed_in_words
 
@@ -32,7 +31,7 @@ def write(options: argparse.Namespace, config: "Config") -> tuple[dict[str, Any]
 
     stored_blade, config = inputs.read_blade(options, config)
     path, blade = stored_blade.path, stored_blade.reduced
-    with refused(OSError):
+    with inputs.refused(OSError):
         mesh = mesh_file.read_mesh(stored_blade.mesh_path, blade)
         needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")
         if needs_elements and not len(mesh["cells"]):
@@ -124,7 +123,7 @@ def write_sections(options: argparse.Namespace, config: "Config") -> tuple[dict[
     from bladerub.extras.export import blade_files
 
     shape, coordinates = BladeShape.from_config(config.blade), options.coordinates or COORDINATES[0]
-    with refused(OSError), refused(ValueError, because=f"--coordinates {coordinates}: "):
+    with inputs.refused(OSError), inputs.refused(ValueError, because=f"--coordinates {coordinates}: "):
         n_sections, n_stations = blade_files.write_sections(path, shape, coordinates)
     figures = {"files": [str(path)], "coordinates": coordinates}
     text = f"{n_sections} sections, {n_stations} stations in all, in m and rad, {coordinates} coordinates"

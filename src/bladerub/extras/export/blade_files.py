@@ -16,7 +16,6 @@ from scipy.io import mmwrite, savemat
 
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.geometry import BladeShape
-from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.reduction import fit_speeds
 from bladerub.extras.blades.matrix_folder import AT_SPEED, FIT, MASS, NODES
@@ -88,11 +87,7 @@ def write_matrices(path: str | Path, blade: ReducedBlade) -> None:
 
 
 def write_fe_matrices(folder: str | Path, blade: DiscreteBlade, f_max: float, suffix: str) -> list[Path]:
-    """Write what `bladerub import` reads: mass and stiffness of the free coordinates, SI; the list of nodes.
-
-    `f_max` is the highest normalised speed of the fit, `suffix` ``.mtx`` (Matrix Market) or ``.npz`` (of
-    `scipy.sparse`).
-    """
+    """Write mass, stiffness, nodes as `bladerub import` reads them, SI; `suffix` is ``.mtx`` or ``.npz``."""
     names = dict(zip(fit_speeds(f_max), FIT, strict=True))
     matrices = {MASS: blade.mass} | {
         names.get(f_omega, f"{AT_SPEED}{f_omega:.10g}"): matrix for f_omega, matrix in blade.stiffness.items()
@@ -104,18 +99,14 @@ def write_fe_matrices(folder: str | Path, blade: DiscreteBlade, f_max: float, su
                 mmwrite(stream, matrix, precision=_DIGITS, symmetry="symmetric")
             else:
                 sparse.save_npz(stream, matrix)
-    nodes = Path(folder) / NODES
-    with atomic.writing(nodes) as stream:
-        _node_list(blade.layout.mesh).to_csv(stream, index=False, float_format=f"%.{_DIGITS}g")
-    return [*paths, nodes]
-
-
-def _node_list(mesh: BladeMesh) -> pd.DataFrame:
+    nodes, mesh = Path(folder) / NODES, blade.layout.mesh
     table = pd.DataFrame(mesh.mesh.points, columns=["x", "y", "z"]).assign(interface=0, clamped=0, tip=0)
     table.loc[mesh.interface, "interface"] = np.arange(1, mesh.interface.size + 1)
     table.loc[mesh.root, "clamped"] = 1
     table.loc[mesh.tip, "tip"] = 1
-    return table
+    with atomic.writing(nodes) as stream:
+        table.to_csv(stream, index=False, float_format=f"%.{_DIGITS}g")
+    return [*paths, nodes]
 
 
 def write_sections(path: str | Path, shape: BladeShape, coordinates: str) -> tuple[int, int]:

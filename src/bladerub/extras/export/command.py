@@ -8,7 +8,6 @@ import numpy as np
 
 from bladerub.api.display import bar
 from bladerub.cli import inputs
-from bladerub.cli.inputs import refused
 from bladerub.extras.bounds import require
 from bladerub.extras.export import blade_command
 from bladerub.io.errors import BadInput
@@ -105,13 +104,13 @@ def _motion(options: argparse.Namespace, config: "Config") -> tuple[dict[str, An
     from bladerub.extras.stress.run import stress_of
     from bladerub.io.provenance import provenance
 
-    with refused(OSError):
+    with inputs.refused(OSError):
         mesh = read_mesh(blade.mesh_path, blade.reduced)
         stress = stress_of(blade.mesh_path, run.attributes["f_omega"]) if len(mesh["cells"]) else None
     recording = _record(options, run, plan, blade.reduced, whole=False)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
     about = {name: run.attributes[name] for name in names} | provenance(config.plain())
-    with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
+    with inputs.refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
         largest = write_motion(options.vtu, mesh, recording, about, stress, plan.row)
     blades, revolution = recording.revolution_peak.shape
     nodes, elements = blades * len(mesh["points"]), blades * len(mesh["cells"])
@@ -146,7 +145,7 @@ def _animation(options: argparse.Namespace, config: "Config") -> tuple[dict[str,
     from bladerub.extras.rows.spec import Row
 
     recording = _record(options, run, plan, blade.reduced, whole=True)
-    with refused(OSError, because=f"--animation {path}: cannot be written: "):
+    with inputs.refused(OSError, because=f"--animation {path}: cannot be written: "):
         animate(path, recording, blade.reduced, plan.row or Row.even(1), run.attributes)
     blades, revolutions = recording.revolution_peak.shape
     wear, size = float(recording.wear.max()), path.stat().st_size
@@ -173,7 +172,7 @@ def _run_of_file(
     from bladerub.study.cache import blade_digest
     from bladerub.study.store import read_runs
 
-    with refused(OSError, because="--run "):
+    with inputs.refused(OSError, because="--run "):
         run = read_runs(options.run)[""]
     path = inputs.blade_path(options, config)
     if not path.exists():

@@ -7,7 +7,6 @@ is the whole stress, that of the rotation included.
 
 import os
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -23,7 +22,6 @@ from bladerub.io.errors import package
 
 if TYPE_CHECKING:
     from bladerub.extras.export.recording import Recording
-    from bladerub.extras.rows.spec import Row
     from bladerub.extras.stress.nodal import NodalStress
 
 meshio = package("meshio", "mesh")
@@ -40,11 +38,7 @@ _FRAME = (
 
 
 def write_mesh_file(
-    path: str | Path,
-    points: np.ndarray,
-    cells: np.ndarray,
-    node_sets: Mapping[str, np.ndarray],
-    fields: Mapping[str, np.ndarray] | None = None,
+    path: str | Path, points: np.ndarray, cells: np.ndarray, node_sets: dict, fields: dict | None = None
 ) -> None:
     """Write a mesh as ``.inp``, ``.msh`` or ``.vtu``, as the suffix of `path` says, one of `FORMATS`.
 
@@ -55,13 +49,13 @@ def write_mesh_file(
     """
     suffix = Path(path).suffix.lower()
     if suffix == ".inp":
-        mesh = meshio.Mesh(points, [_block(points, cells)], point_sets=dict(node_sets))
+        mesh = meshio.Mesh(points, [_block(points, cells)], point_sets=node_sets)
     elif suffix == ".msh":
         mesh = _with_physical_groups(points, cells, node_sets)
     else:
         number = np.arange(len(points))
         marks = {name: np.isin(number, nodes).astype(np.int8) for name, nodes in node_sets.items()}
-        mesh = meshio.Mesh(points, [_block(points, cells)], point_data=marks | dict(fields or {}))
+        mesh = meshio.Mesh(points, [_block(points, cells)], point_data=marks | (fields or {}))
     with atomic.writing(path, "wb") as stream:
         mesh.write(stream.name, FORMATS[suffix])  # meshio wants a path
 
@@ -87,10 +81,7 @@ def _with_physical_groups(points: np.ndarray, cells: np.ndarray, node_sets) -> m
 
 
 def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
-    """Read the mesh of a blade and how it follows the reduced coordinates from its ``mesh.h5``.
-
-    Raises an OSError that names the file if it is missing, damaged, or not the mesh of this blade.
-    """
+    """Read the mesh of `blade` and its recovery from ``mesh.h5``; an OSError names a file that is none."""
     mesh, _ = hdf5.read(path, _MESH)
     if missing := _MESH - mesh.keys():
         raise OSError(f"{path}: not the mesh of a blade, {', '.join(sorted(missing))} missing")
@@ -101,12 +92,7 @@ def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
 
 
 def write_motion(
-    folder: Path,
-    mesh: Mapping[str, np.ndarray],
-    recording: "Recording",
-    about: Mapping[str, str],
-    stress: "NodalStress | None",
-    row: "Row | None",
+    folder: Path, mesh: dict, recording: "Recording", about: dict, stress: "NodalStress | None", row
 ) -> dict[str, Any]:
     """Write a recorded motion to a new folder, whole or not at all.
 
@@ -160,7 +146,7 @@ def _turn(angle: float) -> np.ndarray:
     return np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
 
 
-def _ring(mesh: Mapping[str, np.ndarray], wear: np.ndarray, time: float) -> meshio.Mesh:
+def _ring(mesh: dict[str, np.ndarray], wear: np.ndarray, time: float) -> meshio.Mesh:
     """Make the surface of the coating, through the nodes of the tip at rest, with its `wear` (8, n)."""
     tip = mesh["points"][mesh["interface_nodes"]]
     angle = element_angle(wear.shape[1]) - 2 * np.pi * time  # as the rotating frame sees it

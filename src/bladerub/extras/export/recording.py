@@ -35,10 +35,7 @@ class Recording(NamedTuple):
 
 
 def claimed_run(config: Config, file: str, run: StoredRun) -> PlannedRun:
-    """Plan again what a stored run says it is; its own key shows whether `config` and blade made it.
-
-    Raises `KeyError` if the file lacks an attribute of a run, or the config its casing.
-    """
+    """Plan again what a stored run says it is; KeyError for a missing attribute or casing."""
     attributes, case = run.attributes, CoatingCase.described(run.attributes)
     spec = replace(run_spec(config, case, attributes["f_omega"]), revolutions=attributes["revolutions"])
     # as of a short run asked for alone
@@ -50,11 +47,7 @@ def claimed_run(config: Config, file: str, run: StoredRun) -> PlannedRun:
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def record(
-    blade: ReducedBlade,
-    spec: RunSpec,
-    row: Row | None,
-    instants: Sequence[int],
-    progress: Callable[[int], None] | None = None,
+    blade: ReducedBlade, spec: RunSpec, row: Row | None, instants: Sequence, progress: Callable | None = None
 ) -> Recording:
     """Simulate as `bladerub.extras.rows.row.simulate_row` a row, or the blade alone; record it at instants.
 

@@ -52,14 +52,9 @@ def fit_coating(options: argparse.Namespace) -> None:
 
 def _in_words(figures: dict[str, Any]) -> str:
     rates, rows = figures["rates"], figures["parameters"]
-    lines = [
-        f"{figures['points']} points at {len(rates)} rate{'s' if len(rates) > 1 else ''}, "
-        f"residual {figures['residual'] / 1e6:.3g} MPa",
-        "",
-        inputs.row(16, "parameter", "value", "std. error", "95 % from", "to", "unit"),
-        *(_row(parameter) for parameter in rows),
-        "",
-    ]
+    curves = f"{figures['points']} points at {len(rates)} rate{'s' if len(rates) > 1 else ''}"
+    header = inputs.row(16, "parameter", "value", "std. error", "95 % from", "to", "unit")
+    lines = [f"{curves}, residual {figures['residual'] / 1e6:.3g} MPa", "", header, *map(_row, rows), ""]
     if unknown := [row["name"] for row in rows if not row["determined"]]:
         lines += [f"not determined by these curves: {', '.join(unknown)}", ""]
     if not figures["independent_residuals"]:
@@ -68,17 +63,10 @@ def _in_words(figures: dict[str, Any]) -> str:
         lines += [f"{correlation}: {meaning}", ""]
     config = figures["config"]
     mpa = {row["name"]: f"{row['value'] / 1e6:.4g} MPa" for row in rows if row["unit"] == "Pa"}
-    lines += [
-        "for the config:",
-        "",
-        "contact:",
-        f"  modulus_unit: {float(config['modulus_unit'])} # Pa",
-        f"  yield_stress: {config['yield_stress']:.6g} # {mpa['yield_stress']}",
-        "coatings:",
-        f"  - {{casing: 2nd, E: [{config['E']:.4g}], K: [{config['K']:.4g}], theta: [0.0]}} "
-        f"# {mpa['E']}, {mpa['K']}",
-    ]
-    return "\n".join(lines)
+    lines += ["for the config:", "", "contact:", f"  modulus_unit: {float(config['modulus_unit'])} # Pa"]
+    lines += [f"  yield_stress: {config['yield_stress']:.6g} # {mpa['yield_stress']}", "coatings:"]
+    coating = f"{{casing: 2nd, E: [{config['E']:.4g}], K: [{config['K']:.4g}], theta: [0.0]}}"
+    return "\n".join([*lines, f"  - {coating} # {mpa['E']}, {mpa['K']}"])
 
 
 def _row(parameter: dict[str, Any]) -> str:

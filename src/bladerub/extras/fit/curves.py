@@ -34,10 +34,7 @@ class Curve(NamedTuple):
 
 
 def read(path: str | Path, units: Mapping[str, str] | None = None) -> list[Curve]:
-    """Read the curves of a table in the order of their rates; `BadInput` names column, line and value.
-
-    `units` states the units of columns whose header has none.
-    """
+    """Read curves in the order of their rates; `units` of columns that state none; `BadInput` for faults."""
     try:
         return _read(cells.read(Path(path)), units or {})
     except ValueError as error:
@@ -64,10 +61,8 @@ def _read(table: cells.Cells, units: Mapping[str, str]) -> list[Curve]:
         if rows.rate.nunique() > 1:
             raise ValueError(f"test {test} has {rows.rate.nunique()} rates, must have one")
         if strain.size < FEWEST_OF_CURVE:
-            raise ValueError(
-                f"the rate {rate:g} 1/s has {strain.size} rows, must have {FEWEST_OF_CURVE} or more; all "
-                "rows of a test must have one rate, the nominal one"
-            )
+            fault = f"the rate {rate:g} 1/s has {strain.size} rows, must have {FEWEST_OF_CURVE} or more"
+            raise ValueError(f"{fault}; all rows of a test must have one rate, the nominal one")
         if 0 < strain[0] == strain.max():
             fault = f"the curve at the rate {rate:g} 1/s begins at its largest strain"
             raise ValueError(f"{fault}; rows must be in the order of loading")
@@ -89,8 +84,7 @@ def _values(table: cells.Cells, column: str, stated: str | None, units: Mapping[
         row = int(np.argmax(bad))
         line, cell = [*table.rows][row], table.column(column)[row]
         limits = f"from {-bound if column == 'stress' else 0:g} to {bound / factors[unit]:g} {unit}"
-        raise ValueError(
-            f"line {line}: {column} = {cell}, must be {limits}; compression is positive, and the unit stands "
-            f"behind the name: {column} ({[*factors][-1]})"
-        )
+        convention = "compression is positive, and the unit stands behind the name"
+        example = f"{column} ({[*factors][-1]})"
+        raise ValueError(f"line {line}: {column} = {cell}, must be {limits}; {convention}: {example}")
     return values

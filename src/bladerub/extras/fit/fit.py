@@ -170,14 +170,9 @@ def fit(curves: Sequence[Curve]) -> Fit:
         covariance[1:] = covariance[:, 1:] = np.nan
     half = student.ppf(0.5 + LEVEL / 2, freedom)
     columns = zip(names, scale * optimum.x, np.diag(covariance), optimum.active_mask, strict=True)
-    return Fit(
-        tuple(_parameter(half, *column) for column in columns),
-        covariance,
-        float(np.sqrt(variance) * unit),
-        _autocorrelation(optimum.fun, [curve.strain.size for curve in curves]),
-        tuple(rates),
-        points,
-    )
+    parameters = tuple(_parameter(half, *column) for column in columns)
+    correlation = _autocorrelation(optimum.fun, [curve.strain.size for curve in curves])
+    return Fit(parameters, covariance, float(np.sqrt(variance) * unit), correlation, tuple(rates), points)
 
 
 def _starts(curves: Sequence[Curve], unit: float, n: int) -> list[np.ndarray]:

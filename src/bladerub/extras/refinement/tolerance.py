@@ -41,9 +41,9 @@ def reduce_to_tolerance(
         elif n_modes < MOST_MODES_PER_SPEED:
             n_modes += 2
         else:
+            state = f"{errors.reduced_model:.2g} with {n_speeds} fit speeds and {n_modes} modes at each"
             raise BadInput(
-                f"reduction.tolerance = {tolerance:g}: the reduced model comes to "
-                f"{errors.reduced_model:.2g} with {n_speeds} fit speeds and {n_modes} modes at each (eq. (2) "
-                f"alone to {errors.speed_law:.2g}); must be more, or lower reduction.f_omega_max or "
+                f"reduction.tolerance = {tolerance:g}: the reduced model comes to {state} (eq. (2) alone to "
+                f"{errors.speed_law:.2g}); must be more, or lower reduction.f_omega_max or "
                 "reduction.rank_tolerance"
             )

@@ -178,10 +178,8 @@ class _Sample:
         if count > (1 - _FED) * n_elements or self._first < 0 or self._last > n_elements:
             chord = float(np.ptp(row_of[:, centre])) * rig.track / n_elements
             free = (1 - _FED) * rig.track - chord
-            raise ValueError(
-                f"coated = {rig.coated:g}: must be above 0 and at most {free:.3g}, so that the blade is fed "
-                "where there is no coating"
-            )
+            right = f"must be above 0 and at most {free:.3g}, to feed the blade where there is no coating"
+            raise ValueError(f"coated = {rig.coated:g}: {right}")
         self.length = count * rig.track / n_elements
         self._area = strip_width(blade) * rig.tip_length
         gap = np.full((n_elements, lanes), _FAR)

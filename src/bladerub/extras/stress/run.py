@@ -75,13 +75,10 @@ def stress_of(path: str | Path, f_omega: float) -> NodalStress:
 
 
 def modal_stress(path: str | Path, f_omega: float, patterns: np.ndarray | None = None) -> ModalStress:
-    """Return the stress by the reduced coordinates, or by others, of reduced coordinates `patterns` (k, n).
-
-    Nodes of elements with an interface node are left out: that a contact force acts in a point is of the
-    model, and the stress there of the mesh.
-    """
+    """Return the stress by the reduced coordinates, or by others of reduced coordinates `patterns` (k, n)."""
     mesh, _ = hdf5.read(path, {"recovery", "points", "cells", "interface_nodes"})
     displaced = mesh["recovery"] if patterns is None else np.tensordot(patterns, mesh["recovery"], axes=1)
+    # that a contact force acts in a point is of the model, and the stress there of the mesh
     touching = np.isin(mesh["cells"], mesh["interface_nodes"]).any(axis=1)
     nodes = np.setdiff1d(mesh["cells"], mesh["cells"][touching])
     return ModalStress.of_mesh(stress_of(path, f_omega), displaced, mesh["points"], nodes)
@@ -139,13 +136,7 @@ class StressSolver(Solver):
         self._is_done = not has_elements(mesh)
         self.stress: RunStress | None = None
 
-    def simulate_longer(
-        self,
-        blade: ReducedBlade,
-        spec: RunSpec,
-        longer: Callable[[RunResult], int],
-        progress: Callable[[int], None] | None = None,
-    ) -> list[RunResult]:
+    def simulate_longer(self, blade, spec: RunSpec, longer: Callable, progress=None) -> list[RunResult]:
         """Simulate the first run alone, after which its `stress` is there; later ones as `Solver`."""
         if self._is_done:
             return super().simulate_longer(blade, spec, longer, progress)
@@ -169,10 +160,7 @@ def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # the products are small
 def table(mesh: str | Path, blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
-    """Find the stress at each of the `peaks`, a table ``peaks.csv``: rows of `COLUMNS` (`with_variant`).
-
-    `mesh` is the ``mesh.h5`` of the blade; `BadInput` where it is of matrices alone, which tell of no stress.
-    """
+    """Find the stress at each of the `peaks`: rows of `COLUMNS`, see `with_variant`."""
     stress, rows = BladeStress(mesh, blade), []
     for peak in filled(peaks).dropna(subset=["f_peak"]).to_dict("records"):
         spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])

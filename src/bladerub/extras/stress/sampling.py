@@ -38,10 +38,7 @@ class SampledRun(NamedTuple):
 def simulate_sampled(
     blade: ReducedBlade, spec: RunSpec, instants: int, progress: Callable[[int], None] | None = None
 ) -> SampledRun:
-    """Simulate a run as `bladerub.contact.run.simulate`, sampled at so many `instants` of each revolution.
-
-    One an element at most. `progress` is called with the number of revolutions done after each of them.
-    """
+    """Simulate a run, sampled at `instants` a revolution, one an element at most; raises as `simulate`."""
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     modes, (_, shapes) = modes_at(blade, spec.f_omega, spec), mode_shapes_at(blade, spec.f_omega)
     rule, simulation = set_up(blade, spec, modes)
@@ -56,12 +53,9 @@ def simulate_sampled(
     moving = np.sqrt(rule.share[:n])[:, None] * shapes[:, :n].T
     answer = modes.tip * ((1.0 - rule.share) / modes.omega**2) @ shapes.T
     times = np.add.outer(np.arange(revolutions), ends[1:] / n_elements).ravel()
-    return SampledRun(
-        history.run_result(blade, spec, rule, simulation),
-        times[: sampled.n_sampled],
-        sampled.amplitudes[: sampled.n_sampled],
-        np.vstack([moving, answer]).astype(np.float32),
-    )
+    patterns, n_sampled = np.vstack([moving, answer]).astype(np.float32), sampled.n_sampled
+    result = history.run_result(blade, spec, rule, simulation)
+    return SampledRun(result, times[:n_sampled], sampled.amplitudes[:n_sampled], patterns)
 
 
 class _Sampled:
