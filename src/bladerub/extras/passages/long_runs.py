@@ -15,7 +15,6 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.extras.study_runs import nearest_speed
 from bladerub.io import hdf5
-from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -109,10 +108,7 @@ def _stopwatch(elapsed: np.ndarray) -> Callable[[int], None]:
 def read(path: str | Path) -> LongRuns:
     """Read what `make` has written; raises `OSError`, naming the file, if it is missing or damaged."""
     data, about = hdf5.read(path)
-    try:
-        return LongRuns(CoatingCase.described(about), **{name: data[name] for name in DATASETS})
-    except KeyError as error:
-        raise DamagedFile(f"{path}: no long runs, {error} is missing") from error
+    return LongRuns(CoatingCase.described(about), **{name: data[name] for name in DATASETS})
 
 
 def stops(config: Config) -> list[int]:
@@ -153,10 +149,10 @@ def table(config: Config, coatings: Iterable[LongRuns]) -> pd.DataFrame:
             run = {name: getattr(long, name)[index] for name in ("f_omega", "why", "max_wear", "status")}
             amplitude, seconds = long.revolution_amplitude[index], long.seconds[index, :revolutions]
             run["verdict"], verdict = verdict_after(config, amplitude, revolutions)
-            seconds, whole = seconds[np.isfinite(seconds)], amplitude[:revolutions]
-            whole = whole[np.isfinite(whole)]
+            seconds, amplitude = seconds[np.isfinite(seconds)], amplitude[:revolutions]
+            amplitude = amplitude[np.isfinite(amplitude)]
             run["growth_per_revolution"] = verdict.growth.per_revolution
-            run["late_amplitude"] = whole[-last:].mean() if whole.size else np.nan
+            run["late_amplitude"] = amplitude[-last:].mean() if amplitude.size else np.nan
             run["ms_per_revolution"] = 1e3 * seconds[-1] / seconds.size if seconds.size else np.nan
             rows.append(asdict(long.case) | run | {"revolutions": revolutions})
     return with_variant(pd.DataFrame(rows), COLUMNS)
