@@ -66,10 +66,7 @@ ROWS = {"fine_margins": {"variation": "study"}}  # snapshots that have only the 
 
 
 def update(folder: Path, results: Path) -> None:
-    """Take each snapshot in `folder` anew from its table below `results`, where there is one that differs.
-
-    An equal table keeps the description of the study that it was first taken from.
-    """
+    """Take each snapshot in `folder` anew from its table below `results`, if this is there and differs."""
     with tempfile.TemporaryDirectory() as scratch:
         for snapshot in sorted(folder.glob("*.csv")):
             if source := source_of(snapshot.stem, results):

@@ -33,10 +33,9 @@ def compare(
     """Compute all runs of single blades on coatings of the study `config` on a GPU, and some here as well.
 
     `device` is `bladerub.extras.gpu.device.run`, or takes its arguments; `n_compared` runs, at even
-    distances in the list of the study, are repeated on all cores of this machine. Returns the numbers of
-    `record.GPU_COLUMNS` but for the ``gpu``: ``kernel_s`` of the loops, ``gpu_s`` with what the host does,
-    ``seconds_per_run`` of a core of this processor, and the relative error of the largest displacement in a
-    revolution, the largest of the revolutions of a run.
+    distances in the list of the study, are repeated on all cores. Returns numbers of `record.GPU_COLUMNS`:
+    ``kernel_s`` of the loops, ``gpu_s`` with what the host does, ``seconds_per_run`` of a core, and the
+    relative error of the largest displacement in a revolution, the largest of a run.
     """
     single = [run_spec(config, run.case, run.f_omega) for run in study_runs(config) if not run.row]
     described = [spec for spec in single if not (spec.coating.is_rigid or spec.coating.coulomb)]

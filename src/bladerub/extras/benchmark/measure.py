@@ -47,11 +47,7 @@ def benchmark(
     cores: int | None = None,
     progress: Callable[[str], None] = lambda stage: None,
 ) -> dict[str, Any]:
-    """Measure the time loop beside plain loops and beside the arithmetic of the processor, `rounds` times.
-
-    `cores` (all by default) are those of the estimate, `progress` is called with the name of each stage.
-    Returns the figures that ``bladerub benchmark --json`` prints.
-    """
+    """Measure the loop beside plain ones and the processor: the figures of ``bladerub benchmark``."""
     progress("finding a run with contact in a third of the steps")
     touching, share = in_contact(blade, middle_run(config))
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
@@ -143,10 +139,7 @@ def middle_run(config: Config) -> RunSpec:
 
 
 def cost_by_nodes(config: Config, counts: Sequence[int], rounds: int) -> dict[str, float]:
-    """Return the time of a simulation with contact, over that with eight nodes, by the number of nodes.
-
-    Blades are those of `config`, the mesh fine enough along the chord for all.
-    """
+    """Return the time of a simulation over that with eight nodes, by the number of nodes, on one mesh."""
     from bladerub.extras.verification.refinement import blade_with  # other measurements do without
 
     blades = {n: blade_with(config, n) for n in (N_INTERFACE, *counts)}

@@ -70,10 +70,7 @@ def gpu_row(figures: Mapping[str, Any]) -> pd.DataFrame:
 
 
 def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[str, str]) -> None:
-    """Put rows into the table at `path`, in the place of its old ones with the same values `by` columns.
-
-    `origin` is from `bladerub.io.provenance.provenance`. Raises as `recorded`.
-    """
+    """Put rows into the table at `path`, in the place of its old ones with equal values `by` columns."""
     old = recorded(path, list(new.columns))
     if len(old):
         matches = (old[by] == new.loc[0, by].to_numpy()).all(axis="columns")

@@ -49,10 +49,7 @@ class Gpu(Solver):
             device.connect()
 
     def start(self) -> None:
-        """Start the process that has the GPU, `bladerub.extras.gpu.server`, for the jobs of this one.
-
-        It ends with this one, which ends without a GPU. One that the environment names already is used.
-        """
+        """Start `bladerub.extras.gpu.server`, if there is none, for the jobs of this process."""
         if os.environ.get(ADDRESS):
             return
         address = Path(tempfile.mkdtemp(prefix="bladerub-gpu-")) / "socket"

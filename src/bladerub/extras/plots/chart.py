@@ -114,10 +114,7 @@ def _ridge(axes: Axes, grid: pd.DataFrame) -> None:
 
 @style.styled
 def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Limits, unit: float) -> Figure:
-    """Draw for each θ which coatings of ``chart.csv`` exceed which of the `limits`.
-
-    `broken` is for the same rows, from `bladerub.extras.chart.choice.broken_limits`; E = 1 is `unit`, Pa.
-    """
+    """Draw for each θ which rows of ``chart.csv`` exceed which `limits`; E = 1 is `unit`, Pa."""
     lettered = broken.rename(columns=LETTERS)
     judged = chart.assign(broken=broken.sum(axis=1), letters=lettered.dot(lettered.columns))
     figure = style.new_figure(style.PAGE, 0.55 * style.PAGE)
@@ -218,10 +215,7 @@ def _draw(axes: Axes, points: pd.DataFrame, column: str) -> None:
 
 @style.styled
 def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) -> Figure:
-    """Draw f_k of all points of ``chart_explanation.csv`` over E_T, a panel for each order.
-
-    `summary` is from `bladerub.extras.chart.stiffening.table`; E = 1 is `unit`, Pa.
-    """
+    """Draw f_k of ``chart_explanation.csv`` over E_T by order; `summary` is of this, E = 1 is `unit`, Pa."""
     orders = sorted(peaks.order.unique())
     figure = style.new_figure(style.PAGE, 0.52 * style.PAGE)
     row = figure.subplots(1, len(orders), squeeze=False)[0]
@@ -246,10 +240,7 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) ->
 
 @style.styled
 def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
-    """Draw for each θ the greatest displacement against the greatest worn volume.
-
-    `chart` is ``chart.csv``, `front` is from `bladerub.extras.chart.choice.pareto`.
-    """
+    """Draw the greatest displacement over worn volume in ``chart.csv`` for each θ; `front` is of `pareto`."""
     angles = sorted(chart.theta.unique())
     chart, front = (rows[rows.worn_volume > 0] for rows in (chart, front))  # for the logarithmic axis
     figure = style.new_figure(style.PAGE, 0.5 * style.PAGE)

@@ -63,10 +63,7 @@ def start(workflow: Any, results: Iterable[str]) -> None:
 
 
 def date_back(results: str | Path) -> None:
-    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure.
-
-    What another invocation takes away meanwhile, or the system refuses, is left as it is.
-    """
+    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure."""
     now, n_future = time.time(), 0
     for folder, _, names in os.walk(results):
         for path in (os.path.join(folder, name) for name in names):
@@ -75,10 +72,8 @@ def date_back(results: str | Path) -> None:
                     os.utime(path, (now, now), follow_symlinks=False)
                     n_future += 1
     if n_future:
-        print(
-            f"bladerub: files of the future, by a clock that was ahead: {n_future}; they are of now",
-            file=sys.stderr,
-        )
+        text = f"files of the future, by a clock that was ahead: {n_future}; they are of now"
+        print(f"bladerub: {text}", file=sys.stderr)
 
 
 def _handle_termination_beside() -> None:

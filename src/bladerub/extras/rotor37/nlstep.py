@@ -79,10 +79,7 @@ def directions(blade: ReducedBlade) -> np.ndarray:
 
 
 def case(blade: ReducedBlade, spec: RunSpec, n_modes: int, steps: int) -> dict[str, Any]:
-    """State a run on the rigid casing in NLstep's terms, with `steps` in a revolution.
-
-    Arrays are over the j nodes and the ``revolutions * steps + 1`` times, SI units.
-    """
+    """State a run on the rigid casing for NLstep; arrays over nodes and times, SI units."""
     mass, damping, stiffness = massless_boundary(blade, spec.f_omega, spec.damping_ratio, n_modes)
     speed = 2 * np.pi * spec.f_omega * blade.f1_hz
     time = np.arange(spec.revolutions * steps + 1) * (2 * np.pi / speed / steps)

@@ -61,10 +61,7 @@ COLUMNS = [
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
-    """Repeat runs of the study on the rigid casing: a row for each speed and alternative (``columns.csv``).
-
-    `peaks` is a table ``peaks.csv``, of which the peaks of the rigid casing are looked at.
-    """
+    """Repeat runs at the rigid casing's peaks of ``peaks.csv``: a row for each speed and alternative."""
     rows = []
     last = slice(-config.analysis.spectrum_revolutions, None)  # the revolutions of the study's spectra
     for f_omega, order, alternatives in _listed(config, peaks):

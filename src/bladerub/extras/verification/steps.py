@@ -55,7 +55,7 @@ def table(
 
     The error is the largest of the `differences` from a run of `REFINEMENT` times the steps of the smallest
     tolerance. A run is sensitive, whatever the tolerance, if neighbouring starts `explain` its errors at that
-    of the study. `report` is called with a line for each run.
+    of the study.
     """
     rows, runs = [], draw(config)
     for number, run in enumerate(runs, 1):
@@ -92,10 +92,7 @@ def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[A
 
 @style.styled
 def draw_steps(table: pd.DataFrame) -> Figure:
-    """Draw the error of `table` over the steps of a revolution: a line joins tolerances of one Young modulus.
-
-    Runs that are chaotic are left out.
-    """
+    """Draw the error of `table` over the steps, but for chaotic runs; a line joins tolerances of one E."""
     calm = table[~table.sensitive.astype(bool)]
     figure = style.new_figure(style.PAGE, 0.5 * style.PAGE)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)

@@ -111,10 +111,7 @@ def verify_runs(
 
 
 def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRun:
-    """Find the error of one run.
-
-    Raises `ValueError` if the blade has no such speed, or the step is too long for the scheme.
-    """
+    """Find the error of one run; `ValueError` if the blade has no such speed, or the step is too long."""
     spec = run_spec(config, run.case, run.f_omega)
     passage = element_passage(blade, spec)
     solve = partial(_solve, blade, run.row)
@@ -160,9 +157,8 @@ def speedup_at_equal_error(
     """Cost of the paper's scheme at the error of the study's run, over the cost of the study's run.
 
     All errors are differences from the study's scheme with finer steps. That of the paper's scheme is taken
-    as proportional to the step, through the one at the step `REFINEMENT` times finer; its step of equal error
-    is at most its coarser step, as stability allows no longer one. Its cost is proportional to 1 / step. None
-    if an error is zero or infinite, or that of the paper's scheme does not decrease with its step.
+    as proportional to the step, its cost to 1 / step; its step of equal error is at most its coarser step, as
+    stability allows no longer one. None if an error is zero or infinite, or does not decrease with its step.
     """
     errors = (error, paper_error, paper_finer_error)
     if min(errors) == 0 or max(errors) == math.inf or paper_finer_error >= paper_error:
@@ -190,11 +186,7 @@ def table(
     candidates: Mapping[str, Sequence[StudyRun]],
     report: Callable[[object], None] = lambda line: None,
 ) -> pd.DataFrame:
-    """Verify the runs of `DRAWS`; a row each, with `COLUMNS`.
-
-    `candidates` are the runs to draw from by the names there; of a study that has fewer all are taken.
-    `report` is called with a line for a log after each run.
-    """
+    """Verify the runs of `DRAWS`, or all `candidates` of a name if these are fewer; columns `COLUMNS`."""
     rows = []
     for name, draws in DRAWS.items():
         for seed, sample in draws:
@@ -210,11 +202,7 @@ def table(
 
 
 def summary(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
-    """Summarise the errors of one run or more, in plain values that JSON can hold; infinite ones are None.
-
-    The keys are those that docs/how-to/how_sure.md describes; ``speedup_at_equal_error`` is the median over
-    the runs that have one and are not sensitive, and of the runs ``beyond`` the worst comes first.
-    """
+    """Summarise errors in plain values, by keys of docs/how-to/how_sure.md; infinite ones are None."""
     errors = pd.DataFrame([run.error for run in verified], index=[run.run.name for run in verified])
     speedups = [run.speedup for run in verified if run.speedup is not None and not run.is_sensitive]
     beyond = sorted((run for run in verified if run.is_beyond), key=lambda run: -max(run.error))
