@@ -41,8 +41,7 @@ def compare(
     described = [spec for spec in single if not (spec.coating.is_rigid or spec.coating.coulomb)]
     if not described:
         raise BadInput("--gpu: the study has no coating with theta, whose runs alone are on a GPU")
-    kernel: list[float] = []
-    handed_over: list[int] = []
+    kernel, handed_over = [], []
 
     def note(runs: int, line: str) -> None:
         handed_over.append(runs)
@@ -62,17 +61,12 @@ def compare(
 
     cpu_runs = dict(each_done(timed_run, numbers, record.cores()))
     steps = sum(n_steps for _, n_steps, *_ in gpu_runs.values())
-    return {
-        **{name: record.describe()[name] for name in ("processor", "cores")},
-        "gpu_runs": len(described),
-        "handed_over": sum(handed_over),
-        "kernel_s": sum(kernel),
-        "gpu_s": seconds,
-        "gpu_steps_per_second": steps / sum(kernel),
-        "compared_runs": len(numbers),
-        "seconds_per_run": float(np.mean([cost for _, cost in cpu_runs.values()])),
-        **agreement([(gpu_runs[number], cpu_runs[number][0]) for number in numbers]),
-    }
+    figures = {name: record.describe()[name] for name in ("processor", "cores")}
+    figures |= {"gpu_runs": len(described), "handed_over": sum(handed_over), "kernel_s": sum(kernel)}
+    figures |= {"gpu_s": seconds, "gpu_steps_per_second": steps / sum(kernel)}
+    figures |= {"compared_runs": len(numbers)}
+    figures |= {"seconds_per_run": float(np.mean([cost for _, cost in cpu_runs.values()]))}
+    return figures | agreement([(gpu_runs[number], cpu_runs[number][0]) for number in numbers])
 
 
 def agreement(pairs: list[tuple[tuple, tuple]]) -> dict[str, float]:

@@ -26,10 +26,10 @@ from bladerub.numerics.vectors import LANES
 
 WARP = 32  # lanes of a warp: four groups of the `LANES` nodes
 MOST_RUNS = 4096  # runs of a piece of work at most: what a device leaves of each takes half a megabyte
-COMPLETED, UNBOUNDED, HANDED_OVER = range(3)
-"""How a run ended: at its end, beyond the displacement limit, or where the loop can't go on."""
+COMPLETED, UNBOUNDED, HANDED_OVER = range(3)  # a run ended, left the limit, or the loop can't go on
 COUNTS = ("status", "revolutions", "steps", "last_steps", "contact_steps", "reversed_steps")
 
+# Entries of the ledger in the order of ``loop.cu``: a group of lanes each, and the sum of the groups
 _OF_NODES = (
     *(energy.RADIAL, energy.TANGENTIAL, energy.SLIDING, energy.TORQUE),
     *(energy.EXCHANGED, energy.RETREAT, energy.COUPLE),
@@ -38,7 +38,6 @@ _OF_ELEMENTS = (
     *(energy.SHAPE, energy.WEAR, energy.STORED, energy.STORED_BEFORE, energy.LAST_SHAPE, energy.LAST_WEAR),
     energy.DAMPING,
 )
-"""Entries of the ledger in the order of ``loop.cu``: a group of lanes each, and the sum of the groups."""
 _LEDGER_ROWS = 2 + len(_OF_ELEMENTS) - 1
 FOLDER = Path(__file__).parent
 _FORMS = ("INCREMENT_Q", "INCREMENT_D", "LAST_STEP_Q", "LAST_STEP_D", "LOSS_QQ", "LOSS_QD", "LOSS_DD")

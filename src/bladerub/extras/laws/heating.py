@@ -29,8 +29,7 @@ DATASETS = {
     "temperature_rise": (("node", "angle"), "K", "by which the surface of the coating is warmer at the end")
 }
 
-HEATED, CELLS = 3, 12
-"""Finite volumes of the heated depth, all alike, and of a column, where they grow towards the casing."""
+HEATED, CELLS = 3, 12  # finite volumes of the heated depth, all alike, and of a column, growing below it
 
 
 class Layer:

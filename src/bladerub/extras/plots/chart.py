@@ -22,9 +22,7 @@ from bladerub.plots.bins import edges
 PAPER_E = (0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0)  # moduli of the paper's Figs. 11 to 14,
 PAPER_K = (0.05, 0.1, 0.5, 1.0, 5.0, 10.0)  # which make 54 coatings
 LETTERS = {"amplitude": "A", "wear": "W", "divergent_share": "D", "fatigue": "F"}  # of exceeded limits
-_SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08", "#4d2604"]
-"""From none to all limits exceeded, the last where the stress is limited too."""
-
+_SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08", "#4d2604"]  # from none to all limits exceeded
 _PAPER = {"marker": "o", "mfc": "white", "mec": style.DARK, "mew": 0.5, "ls": "none"}
 _RIDGE = {"color": style.DARK, "linewidth": 1.3, "marker": "s", "markersize": 2.2}
 _RIDGE_OF = {"peak": "displacement", "worn_volume": "worn volume"}
@@ -46,12 +44,11 @@ class Quantity(NamedTuple):
     logarithmic: bool  # colours of amplitudes and volumes, which spread over decades
 
 
-QUANTITIES = {
+QUANTITIES = {  # drawn besides Y_k and f_k of each engine order, by column of ``chart.csv``
     "peak": Quantity("greatest radial displacement of node 1 (mm)", 1e3, "peak", True),
     "worn_volume": Quantity("greatest worn volume (cm³)", 1e6, "worn_volume", True),
     "divergent_share": Quantity("share of divergent speeds (%)", 100.0, "peak", False),
 }
-"""What is drawn besides Y_k and f_k of each engine order, by column of ``chart.csv``."""
 
 
 def drawn_quantity(column: str) -> Quantity:

@@ -16,11 +16,7 @@ if TYPE_CHECKING:
 
 READ = ["number", "value"]  # that a compared table must have; it may have ``unit`` and ``uncertainty``
 COLUMNS = ["table", "number", "reference", "value", "allowed", "unit", "agrees"]
-"""Columns of the comparison; ``allowed`` is the largest difference that is within the uncertainties."""
-
-COVERAGE = 2.0
-"""How many times their joint uncertainty two numbers may differ: 95 % of them, if the errors are normal."""
-
+COVERAGE = 2.0  # times the joint uncertainty that two numbers may differ: 95 % of them, if errors are normal
 _DIGITS = 1e-6  # relative; tables have seven digits
 
 

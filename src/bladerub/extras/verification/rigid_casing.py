@@ -52,7 +52,6 @@ ALTERNATIVES = (
     *(Alternative("moreau_jean_0", 8, modes) for modes in (10, 20, 40, 60)),
 )
 """What is tried at `PLAIN_SPEED` and at the peaks; `NEARBY` at the speeds next to them."""
-
 COLUMNS = [
     *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude", "amplitude_change"),
     *("largest_revolution", "median_revolution", "largest_displacement"),

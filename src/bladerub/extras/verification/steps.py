@@ -30,11 +30,10 @@ UNIFORM = (20, 1.2e-6)  # one step for all coatings: least number in an element,
 SAMPLE, SEED = 12, 11  # runs drawn for each Young modulus
 _QUANTILES = {"median": 0.5, "nine runs in ten": 0.9}  # that are drawn
 
-COLUMNS = [
+COLUMNS = [  # of ``steps.csv``; the tolerance of `UNIFORM` is empty
     *("casing", "E", "K", "theta", "law", "f_omega"),
     *("tolerance", "steps_per_element", "steps_per_revolution", "error", "sensitive", "energy_residual"),
 ]
-"""Columns of ``steps.csv``; the tolerance of `UNIFORM` is empty."""
 
 
 def draw(config: Config) -> list[StudyRun]:

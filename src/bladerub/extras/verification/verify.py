@@ -43,16 +43,14 @@ REFINEMENT = 4  # the finer step leaves 1/16 of an error of second order, 1/4 of
 NEIGHBOURS = (-1e-7, -5e-8, 5e-8, 1e-7)
 """Initial radial displacements of node 1 in neighbouring starts, m: far below the tolerance to which a blade
 tip is made (some 0.01 mm) and far above rounding."""
-
 DRAWS = {"all": [(1, 40), (2, 40), (3, 40)], "important": [(1, 100)]}
 """Seeds of the draws and numbers of runs, from all of the study and from those that claims rest on."""
-COLUMNS = [
+COLUMNS = [  # of ``accuracy.csv``
     *("drawn_from", "seed", "casing", "E", "K", "theta", "law", "f_omega", "status"),
     *(f"error_{measure}" for measure in Differences._fields),
     *(f"start_{measure}" for measure in Differences._fields),
     *("sensitive", "energy_residual", "speedup_at_equal_error", "cpu_s"),
 ]
-"""Columns of ``accuracy.csv``, described in ``columns.csv``."""
 
 
 class Solved(NamedTuple):
@@ -132,6 +130,8 @@ def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRu
     measure = Differences._fields.index("wear_l2" if finer.blades[0].wear.any() else "peak")
     unbounded = "unbounded" in (outcome.blades[0].status, finer.blades[0].status)
     solved = {"study": outcome, "finer": finer, "paper": paper, "paper_finer": paper_finer}
+    paper_errors = (compare(one, finer)[measure] for one in (paper, paper_finer))
+    costs = outcome.seconds, *paper_errors, paper_finer.seconds
     return VerifiedRun(
         run=run,
         status="unbounded" if unbounded else "completed",
@@ -141,13 +141,7 @@ def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRu
         spread=spread,
         energy_residual=outcome.energy_residual,
         seconds={name: run_solved.seconds for name, run_solved in solved.items()},
-        speedup=speedup_at_equal_error(
-            error[measure],
-            outcome.seconds,
-            compare(paper, finer)[measure],
-            compare(paper_finer, finer)[measure],
-            paper_finer.seconds,
-        ),
+        speedup=speedup_at_equal_error(error[measure], *costs),
     )
 
 
