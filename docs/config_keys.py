@@ -14,10 +14,7 @@ MARK = "<!-- written by `snakemake config_reference` from here on -->\n"
 
 
 def updated(page: str, config: Mapping[str, Any]) -> str:
-    """Return the text of the page with today's units, and a section for each key at the top of a config.
-
-    `config` is the study, for the values that a config without that key has.
-    """
+    """Return the page with today's units, and a section for each key at the top of the study's `config`."""
     sections = [f"| {kind} | {names} |" for kind, names in choices_by_kind().items()]
     described: dict[str, str] = {}
     for name, key in key_of(whole()).fields().items():

@@ -7,11 +7,10 @@ from bladerub import plugins
 from bladerub.io import tables
 from docs.numbers import ROOT
 
-COUNTED = {
+COUNTED = {  # tables of a row a run, which become counts (``runs``) of those with equal values in columns
     "divergence": ["casing", "E", "K", "theta", "law", "revolutions", "status", "divergent", "saturating"],
     "long_runs": ["law", "why", "revolutions", "verdict"],
 }
-"""Tables of a row a run, which become counts (``runs``) of the runs with equal values in these columns."""
 _RUN = ("casing", "E", "K", "theta")
 _COMBINATION = (*_RUN, "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling")
 _STATISTICS = ("median", "low", "high", "p05", "p95")
@@ -22,7 +21,7 @@ _ROWS = (
     *("wear_harmonic", "wear_harmonic_rows", "wear_harmonic_share_median", "lobes_lowest", "lobes_highest"),
     "energy_residual",
 )
-KEPT = {
+KEPT = {  # tables of which pages need these columns only, to four digits
     "accuracy": (
         *("drawn_from", *_RUN, "f_omega", "status", "sensitive", "speedup_at_equal_error"),
         *(f"{kind}_{name}" for kind in ("error", "start") for name in ("wear_l2", "peak", "revolution_peak")),
@@ -61,15 +60,11 @@ KEPT = {
         *("last_von_mises", "last_von_mises_z", "last_principal", "last_alternating"),
     ),
 }
-"""Tables of which pages need these columns only, to four digits."""
 ROWS = {"fine_margins": {"variation": "study"}}  # snapshots that have only the rows with these values
 
 
 def update(folder: Path, results: Path) -> None:
-    """Take each snapshot in `folder` anew from its table below `results`, where there is one that differs.
-
-    An equal table keeps the description of the study that it was first taken from.
-    """
+    """Take each snapshot in `folder` anew from its table below `results`, if this is there and differs."""
     with tempfile.TemporaryDirectory() as scratch:
         for snapshot in sorted(folder.glob("*.csv")):
             if source := source_of(snapshot.stem, results):

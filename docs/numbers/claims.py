@@ -7,6 +7,20 @@ import pandas as pd
 
 from docs.numbers import Tables, fixed, peak, percent, rows, table
 
+_CLAIMS = {
+    "C1": "the reduced model has seven frequencies of the finite elements",
+    "C2": "worn lobes: five in two ranges of speed, ten near 0.1, four near 0.38",
+    "C3": "wear is greatest near 0.26 and 0.38, where eo(5) and eo(4) cross C1",
+    "C4": "E = 0.11 peaks at 0.21 and 0.31, on even orders only",
+    "C5": "E = 1.1: higher, and all orders",
+    "C6": "Y4 is greatest at (E, K) = (1.1, 0.5)",
+    "C7": "f4 rises with K",
+    "C8": "for K ≤ 0.1, E hardly matters",
+    "C9": "eo(6) likewise",
+    "C10": "θ = 0.15 lowers amplitudes and peak speeds",
+    "C11": "one θ diverges where the other does not, six lobes",
+    "C12": "E above 20 is as rigid, below 0.11 nothing dangerous; a coating may be worse than none",
+}
 _BLOCK = re.compile(r"(?<=<!-- claims -->\n\n).*(?=\n\n<!-- end of claims -->)", re.DOTALL)
 
 _SIGNS = {"f_omega": "f_Ω", "theta": "θ", "<=": "≤"}
@@ -16,14 +30,9 @@ _CHANGE = 0.03  # relative change of a measured value from which on it is shown 
 def claims(findings: pd.DataFrame, *groups: str) -> str:
     """Write the parts of the claims `groups` (``C2``) as a table."""
     chosen = findings[findings["id"].str.extract(r"(C\d+)", expand=False).isin(groups)]
-    return table(
-        {
-            "part": chosen["id"],
-            "the paper": _statements(chosen),
-            "here": [measured(part) for _, part in chosen.iterrows()],
-            "holds": chosen["holds"],
-        }
-    )
+    here = [measured(part) for _, part in chosen.iterrows()]
+    parts = {"part": chosen["id"], "the paper": _statements(chosen), "here": here}
+    return table(parts | {"holds": chosen["holds"]})
 
 
 def counts(findings: pd.DataFrame) -> str:
@@ -63,10 +72,7 @@ def variations(margins: pd.DataFrame) -> str:
 
 
 def changed_sentences(sentences: pd.DataFrame, findings: pd.DataFrame) -> list[str]:
-    """Name the `sentences` that were written for verdicts which are others now, with page and verdicts.
-
-    ``docs/numbers/verdicts.csv`` lists them: page, claims, the verdict of these, how the sentence begins.
-    """
+    """Name the `sentences` (verdicts.csv) that were written for verdicts which are others now."""
     verdicts = findings.set_index("id")["holds"]
     changed = []
     for line in sentences.itertuples():
@@ -99,8 +105,8 @@ def update_readme(page: Path, tables: Tables) -> None:
     findings, peaks = tables["findings"], tables["peaks"]
     here = {part["id"]: measured(part) for _, part in findings.iterrows()}
     lines = [
-        [f"{claim} {statement}", _verdict(findings, claim), answer]
-        for claim, (statement, answer) in _answers(here, peaks).items()
+        [f"{claim} {_CLAIMS[claim]}", _verdict(findings, claim), answer]
+        for claim, answer in _answers(here, peaks).items()
     ]
     summary = (
         f"`results/tables/findings.csv` tests {len(findings)} parts of the paper's statements: "
@@ -120,64 +126,28 @@ def _verdict(findings, claim):
 
 
 def _answers(here, peaks):
-    """Return statement and answer by claim; `here` has what was measured for each part."""
+    """Return the answer to each of `_CLAIMS`; `here` has what was measured for each part."""
     greatest_4, greatest_6 = (here[part].split(" at ")[0] for part in ("C6a", "C9a"))
     straight = rows(peaks, casing="2nd", theta=0, order=4)["amplitude"]
     ridge = percent(peak(peaks, 1.1, 0.5)["amplitude"] / straight.max())
     f6 = [fixed(peak(peaks, 2, 0.5, 6, theta)["f_peak"], 3) for theta in (0.15, 0)]
     return {
-        "C1": (
-            "the reduced model has seven frequencies of the finite elements",
-            f"to {here['C1a']} (modes 1 to 6) and {here['C1b']}",
-        ),
-        "C2": (
-            "worn lobes: five in two ranges of speed, ten near 0.1, four near 0.38",
-            f"five in {here['C2a']} and {here['C2b']} of the runs; "
-            f"ten at {here['C2c']}, four at {here['C2d']} (fitted)",
-        ),
-        "C3": (
-            "wear is greatest near 0.26 and 0.38, where eo(5) and eo(4) cross C1",
-            f"at {here['C3a']} and {here['C3b']} (the second fitted)",
-        ),
-        "C4": (
-            "E = 0.11 peaks at 0.21 and 0.31, on even orders only",
-            f"at {here['C4a']} and {here['C4b']} (fitted); "
-            f"odd orders have {percent(here['C4c'])} % of the even ones",
-        ),
-        "C5": (
-            "E = 1.1: higher, and all orders",
-            f"{fixed(here['C5a'], 1)} times on eo(4), {fixed(here['C5b'], 1)} times on eo(6), "
-            f"{here['C5c']} of the orders",
-        ),
-        "C6": (
-            "Y4 is greatest at (E, K) = (1.1, 0.5)",
-            f"greatest at {greatest_4}, on a flat ridge along E; (1.1, 0.5) has {ridge} % of it",
-        ),
-        "C7": (
-            "f4 rises with K",
-            f"by {here['C7a']} or more for every E; at {here['C7b']} of the steps of K",
-        ),
-        "C8": (
-            "for K ≤ 0.1, E hardly matters",
-            f"f4 varies by {here['C8b']}, Y4 by {percent(here['C8a'])} % of its mean",
-        ),
-        "C9": (
-            "eo(6) likewise",
-            f"Y6 is greatest at {greatest_6}; f6 does not fall at {here['C9c']} of the steps of K, "
-            f"and varies by {here['C9e']} for K ≤ 0.1",
-        ),
-        "C10": (
-            "θ = 0.15 lowers amplitudes and peak speeds",
-            f"Y4 to {percent(here['C10a'])} %, Y6 to {percent(here['C10b'])} %; "
-            f"f4 changes by {here['C10c']}, f6 by {here['C10d']}",
-        ),
-        "C11": (
-            "one θ diverges where the other does not, six lobes",
-            f"at our peaks on eo(6), {f6[0]} and {f6[1]}, and at the paper's speeds (fitted)",
-        ),
-        "C12": (
-            "E above 20 is as rigid, below 0.11 nothing dangerous; a coating may be worse than none",
-            f"E = 20 against the rigid casing: {here['C12a'].split(';')[0]}; "
-            f"highest Y4 and Y6: {fixed(here['C12c'], 1)} and {fixed(here['C12d'], 1)} times those of it",
-        ),
+        "C1": f"to {here['C1a']} (modes 1 to 6) and {here['C1b']}",
+        "C2": f"five in {here['C2a']} and {here['C2b']} of the runs; "
+        f"ten at {here['C2c']}, four at {here['C2d']} (fitted)",
+        "C3": f"at {here['C3a']} and {here['C3b']} (the second fitted)",
+        "C4": f"at {here['C4a']} and {here['C4b']} (fitted); "
+        f"odd orders have {percent(here['C4c'])} % of the even ones",
+        "C5": f"{fixed(here['C5a'], 1)} times on eo(4), {fixed(here['C5b'], 1)} times on eo(6), "
+        f"{here['C5c']} of the orders",
+        "C6": f"greatest at {greatest_4}, on a flat ridge along E; (1.1, 0.5) has {ridge} % of it",
+        "C7": f"by {here['C7a']} or more for every E; at {here['C7b']} of the steps of K",
+        "C8": f"f4 varies by {here['C8b']}, Y4 by {percent(here['C8a'])} % of its mean",
+        "C9": f"Y6 is greatest at {greatest_6}; f6 does not fall at {here['C9c']} of the steps of K, "
+        f"and varies by {here['C9e']} for K ≤ 0.1",
+        "C10": f"Y4 to {percent(here['C10a'])} %, Y6 to {percent(here['C10b'])} %; "
+        f"f4 changes by {here['C10c']}, f6 by {here['C10d']}",
+        "C11": f"at our peaks on eo(6), {f6[0]} and {f6[1]}, and at the paper's speeds (fitted)",
+        "C12": f"E = 20 against the rigid casing: {here['C12a'].split(';')[0]}; "
+        f"highest Y4 and Y6: {fixed(here['C12c'], 1)} and {fixed(here['C12d'], 1)} times those of it",
     }

@@ -66,18 +66,12 @@ def _peaks(peaks):
 
 
 def _longer_peaks(peaks, longer):
-    soft = [
-        rows(study, casing="2nd", K=0.1, theta=0, order=4, E=[0.5, *_RIDGE[:-1]])["amplitude"]
-        for study in (peaks, longer)
-    ]
-    heights = [
-        {"Y4 at (2, 0.5), mm": f"θ = {theta:g}"}
-        | {
-            revolutions: mm(peak(study, 2, 0.5, theta=theta)["amplitude"])
-            for revolutions, study in (("20 revolutions", peaks), ("60 revolutions", longer))
-        }
-        for theta in (0.0, 0.15)
-    ]
+    where = {"casing": "2nd", "K": 0.1, "theta": 0, "order": 4, "E": [0.5, *_RIDGE[:-1]]}
+    soft = [rows(study, **where)["amplitude"] for study in (peaks, longer)]
+    angles = (0.0, 0.15)
+    heights = {"Y4 at (2, 0.5), mm": [f"θ = {theta:g}" for theta in angles]}
+    for revolutions, study in (("20 revolutions", peaks), ("60 revolutions", longer)):
+        heights[revolutions] = [mm(peak(study, 2, 0.5, theta=theta)["amplitude"]) for theta in angles]
     both = peaks.merge(longer, on=["casing", "E", "K", "theta", "order", "law"], suffixes=("", "_longer"))
     both["fall"] = both["f_peak"] - both["f_peak_longer"]
     fall = rows(both[both["E"] >= 1.1], casing="2nd", K=0.5, theta=0, order=4)["fall"]

@@ -12,18 +12,12 @@ def refinement(changes: pd.DataFrame, level: str) -> str:
         peak = peak.sort_values(level)
         finer = peak.iloc[1:]
         differences = ", ".join(percent(change, 1) for change in finer["wear_difference"])
-        lines.append(
-            {
-                "(E, K)": f"({E:g}, {K:g})",
-                "θ": f"{theta:g}",
-                "order": f"{order:g}",
-                "f": " → ".join(fixed(f_peak, 3) for f_peak in peak["f_peak"]),
-                "Y, mm": mm(peak["amplitude"].iloc[0], 2),
-                "change of Y, %": _signed(finer["amplitude_change"]),
-                "of the worn volume, %": _signed(finer["volume_change"]),
-                "of the wear profile (L2), %": differences,
-            }
-        )
+        line = {"(E, K)": f"({E:g}, {K:g})", "θ": f"{theta:g}", "order": f"{order:g}"}
+        line["f"] = " → ".join(fixed(f_peak, 3) for f_peak in peak["f_peak"])
+        line["Y, mm"] = mm(peak["amplitude"].iloc[0], 2)
+        line["change of Y, %"] = _signed(finer["amplitude_change"])
+        line["of the worn volume, %"] = _signed(finer["volume_change"])
+        lines.append(line | {"of the wear profile (L2), %": differences})
     return table(lines)
 
 

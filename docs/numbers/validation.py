@@ -7,18 +7,12 @@ _LIMIT = 0.01  # difference from a finer step within which a run counts as accur
 
 def numbers(tables):
     """Return the text for each name on the page."""
-    return (
-        _blade(
-            tables["rom_accuracy"],
-            tables["campbell"].set_index(["f_omega", "mode"])["f_fe"],
-            tables["findings"],
-        )
-        | _runs(tables["divergence"])
-        | _accuracy(tables["accuracy"])
-    )
+    blade = _blade(tables["rom_accuracy"], tables["campbell"], tables["findings"])
+    return blade | _runs(tables["divergence"]) | _accuracy(tables["accuracy"])
 
 
-def _blade(accuracy, frequencies, findings):
+def _blade(accuracy, campbell, findings):
+    frequencies = campbell.set_index(["f_omega", "mode"])["f_fe"]
     error = row(accuracy, f_omega=0.35, mode=2)
     return {
         "speed_law": percent(abs(error["f_fe_eq2"] / error["f_fe"] - 1), 3),

@@ -37,14 +37,10 @@ def numbers(tables):
 
 
 def _frequencies(blade):
-    names = {"at rest, Hz": "rest", "at the design speed, Hz": "nominal"}
-    return table(
-        [
-            {"mode": mode}
-            | {heading: _with_error(blade, f"f{mode}_{speed}", 1, 1) for heading, speed in names.items()}
-            for mode in range(1, 5)
-        ]
-    )
+    lines = {"mode": range(1, 5)}
+    for heading, speed in (("at rest, Hz", "rest"), ("at the design speed, Hz", "nominal")):
+        lines[heading] = [_with_error(blade, f"f{mode}_{speed}", 1, 1) for mode in range(1, 5)]
+    return table(lines)
 
 
 def _with_error(values, number, factor, digits):

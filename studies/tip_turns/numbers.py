@@ -3,18 +3,12 @@
 from docs.numbers import fixed, mm, row, rows, table
 from docs.numbers.claims import changes
 
-_COATINGS = [  # casing, E, K, θ
-    ("2nd", 0.11, 0.5, 0),
-    ("2nd", 1.1, 0.5, 0),
-    ("2nd", 2, 0.5, 0),
-    ("2nd", 2, 0.5, 0.15),
-    ("2nd", 11, 0.1, 0),
-    ("2nd", 20, 0.5, 0),
-    ("2nd", 20, 1, 0),
-    ("2nd", 20, 10, 0),
+_COATINGS = [  # casing, E, K, θ of those of Figs. 6 to 9, 15 and 16, and of some stiff ones
+    *(("2nd", E, 0.5, 0) for E in (0.11, 1.1, 2)),
+    *(("2nd", 2, 0.5, 0.15), ("2nd", 11, 0.1, 0)),
+    *(("2nd", 20, K, 0) for K in (0.5, 1, 10)),
     ("2nd5nd", 11, 0.5, 0),
 ]
-"""Those of Figs. 6 to 9, 15 and 16, and some stiff ones."""
 
 
 def numbers(tables):

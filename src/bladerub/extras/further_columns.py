@@ -10,8 +10,7 @@ from bladerub.io import tables
 def with_further(table: pd.DataFrame, path: str | Path) -> pd.DataFrame:
     """Return `table` with the further columns of that at `path`, NaN in rows that are not there.
 
-    Rows are the same if they agree in all columns of both: what is of an earlier study adds nothing. Without
-    the file `table` is returned as it is. Raises as `bladerub.io.tables.read`.
+    Rows are the same if they agree in all columns of both. Without the file `table` is returned as it is.
     """
     if not Path(path).exists():
         return table

@@ -16,26 +16,14 @@ from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
 
 CASING, E, K, F_OMEGA = "2nd", 2.0, 0.5, 0.19  # the run: a coating at the speed of its peak on order 6
-LAYER = {
-    "heat_capacity": 2e6,
-    "conductivity": 5.0,
-    "heated_depth": 1e-4,
-    "friction_share": 0.5,
-    "softening_rise": 500.0,
-    "softening_exponent": 1.0,
-}
+LAYER = {"heat_capacity": 2e6, "conductivity": 5.0, "heated_depth": 1e-4, "friction_share": 0.5}
+LAYER |= {"softening_rise": 500.0, "softening_exponent": 1.0}
 """Of the thermal law, SI units: assumed for sprayed aluminium with polyester (config/heat.yaml)."""
 VARIED = ("conductivity", "friction_share", "softening_rise")
 CASES = (
-    (0.0, None),
-    (0.0, (1.0, 0.5, 500.0)),
-    (0.15, None),
-    (0.15, (20.0, 0.5, 500.0)),
-    (0.15, (5.0, 0.5, 500.0)),
-    (0.15, (1.0, 0.5, 500.0)),
-    (0.15, (5.0, 1.0, 500.0)),
-    (0.15, (1.0, 1.0, 500.0)),
-    (0.15, (5.0, 1.0, 300.0)),
+    *((0.0, None), (0.0, (1.0, 0.5, 500.0)), (0.15, None)),
+    *((0.15, (conductivity, 0.5, 500.0)) for conductivity in (20.0, 5.0, 1.0)),
+    *((0.15, (5.0, 1.0, 500.0)), (0.15, (1.0, 1.0, 500.0)), (0.15, (5.0, 1.0, 300.0))),
 )
 """θ and the values of `VARIED` (W/(m K), 1, K); None for the law of the paper."""
 
@@ -46,10 +34,7 @@ COLUMNS = [
 
 
 def table(config: Config, blade: ReducedBlade) -> pd.DataFrame:
-    """Simulate the run of each of `CASES`, and a longer one where it grows; columns `COLUMNS`.
-
-    Amplitude, wear and temperature are those of the run itself, the verdict is that of the longer one.
-    """
+    """Simulate the run of each of `CASES`, and a longer one for the verdict where it grows; `COLUMNS`."""
     compile_kernel(law=_law((1.0, 0.5, 500.0)), n_nodes=blade.n_interface)
     rows = []
     for theta, values in CASES:
@@ -71,12 +56,6 @@ def _measured(config: Config, blade: ReducedBlade, spec: RunSpec) -> tuple[Any, 
     if needs_confirmation(result.revolution_amplitude, result.status, settings):
         longer = simulate(blade, confirmation_spec(spec, settings)).revolution_amplitude
     verdict = judge(result.revolution_amplitude, result.status, settings, longer)
-    rise = result.layer.get("temperature_rise")
-    return (
-        float(np.nanmax(result.revolution_amplitude)),
-        float(result.wear.max()),
-        np.nan if rise is None else float(rise.max()),
-        verdict.divergent,
-        verdict.growth.per_revolution,
-        verdict.revolutions,
-    )
+    rise = np.max(result.layer.get("temperature_rise", np.nan))
+    sizes = np.nanmax(result.revolution_amplitude), result.wear.max(), rise
+    return (*sizes, verdict.divergent, verdict.growth.per_revolution, verdict.revolutions)

@@ -7,7 +7,6 @@ from bladerub.cli import inputs
 from bladerub.io.errors import BadInput
 
 PARAMETER: dict[str, Any] = {"action": "append", "default": [], "metavar": "NAME=VALUE"}
-"""How an option for them is added."""
 
 
 def law_parameters(option: str, settings: list[str]) -> dict[str, float | str]:

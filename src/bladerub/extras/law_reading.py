@@ -1,9 +1,8 @@
 """Reads laws of an abradable element beside that of the paper (`bladerub.contact.law`): modules or files.
 
-A law has the functions of `bladerub.contact.law` (docs/laws.md has the contract), and a dictionary
-`PARAMETERS` with unit, range and meaning of each parameter of its own. That is a literal: configs are checked
-by it without running the law. The time loop is compiled with the law in it
-(`bladerub.extras.variants`). Those that have a name plug in (``LAWS`` of `bladerub.plugins`).
+A law has the functions of `CONTRACT` (docs/laws.md), and a dictionary `PARAMETERS` with unit, range and
+meaning of each parameter of its own. That is a literal: configs are checked by it without running the law.
+Those that have a name plug in (``LAWS`` of `bladerub.plugins`).
 """
 
 import ast
@@ -27,11 +26,8 @@ from bladerub.io.folders import PACKAGE, study_folder
 
 _REASON = re.compile("can't resolve|No implementation|Unknown attribute|Invalid use")
 
-CONTRACT = (
-    *("Element", "element", "return_mapping", "tangent", "elastic_force"),
-    *("stored_energy", "dissipated_energy"),
-)
-"""What the module of a law has for the program."""
+CONTRACT = ("Element", "element", "return_mapping", "tangent", "elastic_force", "stored_energy")
+CONTRACT += ("dissipated_energy",)  # what the module of a law has for the program
 
 
 class Parameter(NamedTuple):
@@ -48,10 +44,7 @@ _PARAMETERS = TypeAdapter(dict[str, Parameter])
 
 @cache
 def source_of(law: ElementLaw) -> str:
-    """Return the text of the module of a law; it is empty for that of the paper, which the loop has.
-
-    Raises `ValueError`, which names the law, if there is none of its name.
-    """
+    """Return the text of the module of a law, empty for the paper's; `ValueError` if there is none such."""
     if law.source or law.name == PLASTIC.name:
         return law.source
     if law.name not in (offered := plugins.offered("LAWS")):
@@ -72,9 +65,8 @@ def law_digest(law: ElementLaw) -> dict[str, str]:
 def compile_error(law: ElementLaw, error: Exception) -> BadInput:
     """Return the error of a law that is refused: the innermost of what the compiler says for each caller."""
     lines = str(error).splitlines() or [type(error).__name__]
-    reason = max(
-        filter(_REASON.search, lines), key=lambda line: len(line) - len(line.lstrip()), default=lines[0]
-    )
+    reasons = filter(_REASON.search, lines)
+    reason = max(reasons, key=lambda line: len(line) - len(line.lstrip()), default=lines[0])
     place = next((line.strip(" :") for line in lines if line.lstrip().startswith("File ")), "")
     innermost = ", ".join(filter(None, (reason.strip(" :").removeprefix("TypingError: "), place)))
     return BadInput(
@@ -85,11 +77,7 @@ def compile_error(law: ElementLaw, error: Exception) -> BadInput:
 
 
 def law_of(entry: Mapping[str, Any]) -> ElementLaw:
-    """Describe a law by the keys of ``contact.law``, checked or not.
-
-    Raises `ValueError`, which begins with the key, if a file cannot be read or is no law, or as
-    `described_law`.
-    """
+    """Describe a law by the keys of ``contact.law``; raises `ValueError`, which begins with the key."""
     values = dict(entry)
     name, file = values.pop("name", PLASTIC.name), values.pop("file", None)
     if file is None:
@@ -124,11 +112,7 @@ def parameters_in(entry: Mapping[str, Any]) -> Mapping[str, Parameter]:
 
 @cache
 def parameters_of(source: str) -> Mapping[str, Parameter]:
-    """Read the parameters of a law from the text of its module, which is not run.
-
-    Raises `ValueError` if it is no Python, lacks a part of `CONTRACT` or its ``PARAMETERS`` are not as they
-    must be.
-    """
+    """Read the parameters of a law from the text of its module, not run; `ValueError` if it is no law."""
     try:
         statements = ast.parse(source).body
         instructions = dis.get_instructions(compile(source, "<law>", "exec", dont_inherit=True))
@@ -154,11 +138,7 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
 
 
 def described_law(name: str, values: Mapping[str, Any], source: str = "") -> ElementLaw:
-    """Describe a law by its name, the values of its parameters and, if it is a user's own, its source.
-
-    Raises `ValueError`, which names the parameter, if one is missing, unknown or out of its range; and as
-    `parameters_of`.
-    """
+    """Describe a law by name, parameters and source, if a user's; `ValueError` names a bad parameter."""
     rules = parameters_of(source_of(ElementLaw(name, (), source)))
     for key, value in values.items():
         if key not in rules:
@@ -166,9 +146,8 @@ def described_law(name: str, values: Mapping[str, Any], source: str = "") -> Ele
             raise ValueError(f"{key} = {value}: unknown parameter, the law {name} {has}")
     settings = []
     for parameter, rule in rules.items():
-        requirement = (
-            f"{rule.meaning}, must be a number from {rule.minimum:g} to {rule.maximum:g}, in {rule.unit}"
-        )
+        limits = f"from {rule.minimum:g} to {rule.maximum:g}, in {rule.unit}"
+        requirement = f"{rule.meaning}, must be a number {limits}"
         if parameter not in values:
             raise ValueError(f"{parameter}: missing, {requirement}")
         value = values[parameter]

@@ -47,9 +47,6 @@ class Law(Section):
 
 
 def law_entry(law: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """Return ``contact.law`` of a config for a law by its name, or by its file, which ends in ``.py``.
-
-    Quantities become plain numbers. What cannot be converted stays as it is, for the law to refuse.
-    """
+    """Return ``contact.law`` of a config for a law by its name or file, with quantities as plain numbers."""
     entry = {"file" if law.endswith(".py") else "name": law, **parameters}
     return converted(Located.of(entry), Law)[0].plain()

@@ -45,10 +45,7 @@ _JOB_OF_RUNS = ("study.job", "study.maps")  # what the job of the runs and the m
 
 
 def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
-    """Estimate the time of the study `config` from `DRAWN` of its runs: ``study_minutes`` on so many `cores`.
-
-    ``seconds_per_run`` are CPU seconds of one run, of the length in the config.
-    """
+    """Estimate the ``study_minutes`` on so many `cores`, and CPU seconds of a run, from `DRAWN` runs."""
     config = config.replaced("solver.device", "cpu")
     runs = study_runs(config)
     step = max(1, len(runs) // DRAWN)
@@ -64,13 +61,8 @@ def estimate(blade: ReducedBlade, config: Config, cores: int) -> dict[str, Any]:
     modules = [*_JOB_OF_RUNS, *(place.partition(":")[0] for place in plugins.offered("COSTS").values())]
     starts = sum(map(_start, modules)) * len(coating_cases(config))
     seconds = len(runs) * totals.mean() + members * peak_totals.mean() + starts
-    return {
-        "seconds_per_run": float(seconds_per_run.mean()),
-        "runs": len(runs),
-        "members": members,
-        "cores": cores,
-        "study_minutes": float(seconds) / cores / 60,
-    }
+    figures = {"seconds_per_run": float(seconds_per_run.mean()), "runs": len(runs), "members": members}
+    return figures | {"cores": cores, "study_minutes": float(seconds) / cores / 60}
 
 
 def _cost(blade: ReducedBlade, config: Config, folder: Path, run: StudyRun) -> tuple[float, float, bool]:
@@ -98,10 +90,9 @@ def _start(module: str) -> float:
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # as in the jobs of the study
 def cost_of_stress(mesh: str | Path, blade: ReducedBlade, config: Config, rounds: int) -> float:
-    """Return the CPU time of `DRAWN_WITH_STRESS` stored runs with their stress, over that without.
+    """Return the CPU time of stored runs with their stress over that without; median of the `rounds`.
 
-    The median of so many `rounds` counts, of which one without effect comes first. `mesh` is the ``mesh.h5``
-    of the blade. Raises `BadInput` where it is of matrices alone.
+    `mesh` is the ``mesh.h5`` of the blade. Raises `BadInput` where it is of matrices alone.
     """
     from bladerub.extras.stress.run import BladeStress  # other measurements do without
 

@@ -33,17 +33,15 @@ def compare(
     """Compute all runs of single blades on coatings of the study `config` on a GPU, and some here as well.
 
     `device` is `bladerub.extras.gpu.device.run`, or takes its arguments; `n_compared` runs, at even
-    distances in the list of the study, are repeated on all cores of this machine. Returns the numbers of
-    `record.GPU_COLUMNS` but for the ``gpu``: ``kernel_s`` of the loops, ``gpu_s`` with what the host does,
-    ``seconds_per_run`` of a core of this processor, and the relative error of the largest displacement in a
-    revolution, the largest of the revolutions of a run.
+    distances in the list of the study, are repeated on all cores. Returns numbers of `record.GPU_COLUMNS`:
+    ``kernel_s`` of the loops, ``gpu_s`` with what the host does, ``seconds_per_run`` of a core, and the
+    relative error of the largest displacement in a revolution, the largest of a run.
     """
     single = [run_spec(config, run.case, run.f_omega) for run in study_runs(config) if not run.row]
     described = [spec for spec in single if not (spec.coating.is_rigid or spec.coating.coulomb)]
     if not described:
         raise BadInput("--gpu: the study has no coating with theta, whose runs alone are on a GPU")
-    kernel: list[float] = []
-    handed_over: list[int] = []
+    kernel, handed_over = [], []
 
     def note(runs: int, line: str) -> None:
         handed_over.append(runs)
@@ -63,17 +61,12 @@ def compare(
 
     cpu_runs = dict(each_done(timed_run, numbers, record.cores()))
     steps = sum(n_steps for _, n_steps, *_ in gpu_runs.values())
-    return {
-        **{name: record.describe()[name] for name in ("processor", "cores")},
-        "gpu_runs": len(described),
-        "handed_over": sum(handed_over),
-        "kernel_s": sum(kernel),
-        "gpu_s": seconds,
-        "gpu_steps_per_second": steps / sum(kernel),
-        "compared_runs": len(numbers),
-        "seconds_per_run": float(np.mean([cost for _, cost in cpu_runs.values()])),
-        **agreement([(gpu_runs[number], cpu_runs[number][0]) for number in numbers]),
-    }
+    figures = {name: record.describe()[name] for name in ("processor", "cores")}
+    figures |= {"gpu_runs": len(described), "handed_over": sum(handed_over), "kernel_s": sum(kernel)}
+    figures |= {"gpu_s": seconds, "gpu_steps_per_second": steps / sum(kernel)}
+    figures |= {"compared_runs": len(numbers)}
+    figures |= {"seconds_per_run": float(np.mean([cost for _, cost in cpu_runs.values()]))}
+    return figures | agreement([(gpu_runs[number], cpu_runs[number][0]) for number in numbers])
 
 
 def agreement(pairs: list[tuple[tuple, tuple]]) -> dict[str, float]:

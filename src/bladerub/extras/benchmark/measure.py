@@ -29,29 +29,18 @@ from bladerub.study.grid import coating_cases, run_spec, speeds
 SHARE, REVOLUTIONS = 1 / 3, 2  # share of the steps in contact
 REPEATS = 25  # marches of the loop of the study in each round: free ones take half a millisecond
 PEAK_TURNS = 2_000_000
-PEAK_CHAINS = 12
-"""Products and sums in progress at once: more than a processor needs to be busy, fewer than its registers."""
-
+PEAK_CHAINS = 12  # products and sums in progress at once, to keep a processor busy: fewer than its registers
 FLOPS_PER_MODE = 7  # of a step by itself: recurrence 3, damping loss 4; 2 more for each coordinate of the tip
-FLOPS_PER_FLIGHT = 29
-"""Of a mode in free flight: increment and last step 9, damping loss 12, mean 4, bound 4; and the tip."""
+FLOPS_PER_FLIGHT = 29  # in free flight: increment and last step 9, damping loss 12, mean 4, bound 4; tip
 FLOPS_PER_ELEMENT = 17 + 52  # force once, and wear with its ledger
 FLOPS_PER_NODE = 60
 FLOPS_PER_TURN = PEAK_CHAINS * LANES * 2
 
 
 def benchmark(
-    blade: ReducedBlade,
-    config: Config,
-    rounds: int,
-    cores: int | None = None,
-    progress: Callable[[str], None] = lambda stage: None,
+    blade: ReducedBlade, config: Config, rounds: int, cores: int | None, progress: Callable[[str], None]
 ) -> dict[str, Any]:
-    """Measure the time loop beside plain loops and beside the arithmetic of the processor, `rounds` times.
-
-    `cores` (all by default) are those of the estimate, `progress` is called with the name of each stage.
-    Returns the figures that ``bladerub benchmark --json`` prints.
-    """
+    """Measure the loop beside plain ones and the processor: the figures of ``bladerub benchmark``."""
     progress("finding a run with contact in a third of the steps")
     touching, share = in_contact(blade, middle_run(config))
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
@@ -76,16 +65,12 @@ def benchmark(
     progress("timing runs drawn from the study")
     study = estimate(blade, config, cores or record.cores())
     tables = {name: pd.DataFrame(rows) for name, rows in seconds.items()}
-    figures = {
-        **record.describe(),
-        "rounds": rounds,
-        "modes": set_up(blade, touching)[0].omega.size,
-        "contact_share": share,
-        "steps_per_second": {
-            loop: {name: 1 / table[loop].median() for name, table in tables.items()} for loop in record.LOOPS
-        },
-        "peak_flops": statistics.median(operations),
+    rates = {
+        loop: {name: 1 / table[loop].median() for name, table in tables.items()} for loop in record.LOOPS
     }
+    figures = record.describe() | {"rounds": rounds, "modes": set_up(blade, touching)[0].omega.size}
+    figures |= {"contact_share": share, "steps_per_second": rates}
+    figures["peak_flops"] = statistics.median(operations)
     for name, ending in (("contact", ""), ("free", "_free")):
         table, flops = tables[name], useful_flops(blade, specs[name])
         for loop in ("numpy", "numba"):
@@ -143,10 +128,7 @@ def middle_run(config: Config) -> RunSpec:
 
 
 def cost_by_nodes(config: Config, counts: Sequence[int], rounds: int) -> dict[str, float]:
-    """Return the time of a simulation with contact, over that with eight nodes, by the number of nodes.
-
-    Blades are those of `config`, the mesh fine enough along the chord for all.
-    """
+    """Return the time of a simulation over that with eight nodes, by the number of nodes, on one mesh."""
     from bladerub.extras.verification.refinement import blade_with  # other measurements do without
 
     blades = {n: blade_with(config, n) for n in (N_INTERFACE, *counts)}

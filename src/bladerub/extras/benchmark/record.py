@@ -14,21 +14,17 @@ from bladerub.io import tables
 MACHINE = ["processor", "vector_bits", "cores"]  # columns that tell machines apart
 LOOPS = ("numpy", "numba", "production")
 _WHOLE = ["peak_flops", "seconds_per_run", "study_minutes", "cost_of_stress"]
-COLUMNS = [
+COLUMNS = [  # of the table of the loops, a row for each machine and kind of motion
     *(*MACHINE, "motion"),
     *(f"steps_per_second_{loop}" for loop in LOOPS),
     *("ratio_to_numpy", "ratio_to_numba", "fraction_of_peak", *_WHOLE),
 ]
-"""Columns of the table of the loops, a row for each machine and kind of motion (``columns.csv``)."""
-GPU_COLUMNS = [
+GPU_COLUMNS = [  # of the table of GPUs
     *("gpu", "processor", "cores", "gpu_runs", "handed_over", "kernel_s", "gpu_s", "gpu_steps_per_second"),
     *("compared_runs", "seconds_per_run", "same_status", "same_steps", "same_contact_steps"),
     *("peak_error_median", "peak_error_p95", "peak_error_p99", "peak_error_largest", "largest_residual"),
 ]
-"""Columns of the table of GPUs."""
-
-_WIDEST = {"avx512f": 512, "avx": 256, "sse2": 128, "neon": 128}
-"""Bits of the vectors that a processor has by what LLVM says of it, widest first."""
+_WIDEST = {"avx512f": 512, "avx": 256, "sse2": 128, "neon": 128}  # bits of vectors by what LLVM calls them
 
 
 def describe() -> dict[str, Any]:
@@ -70,10 +66,7 @@ def gpu_row(figures: Mapping[str, Any]) -> pd.DataFrame:
 
 
 def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[str, str]) -> None:
-    """Put rows into the table at `path`, in the place of its old ones with the same values `by` columns.
-
-    `origin` is from `bladerub.io.provenance.provenance`. Raises as `recorded`.
-    """
+    """Put rows into the table at `path`, in the place of its old ones with equal values `by` columns."""
     old = recorded(path, list(new.columns))
     if len(old):
         matches = (old[by] == new.loc[0, by].to_numpy()).all(axis="columns")

@@ -40,10 +40,8 @@ def check(options: argparse.Namespace) -> None:
     for note in notes:
         print(f"bladerub config: {note}", file=sys.stderr)
     n_coatings, n_speeds = len(coating_cases(config)), len(speeds(config))
-    print(
-        f"valid: {n_coatings} coatings at {n_speeds} speeds are {n_coatings * n_speeds:,} runs, "
-        f"in {config.results}"
-    )
+    runs = f"{n_coatings * n_speeds:,} runs, in {config.results}"
+    print(f"valid: {n_coatings} coatings at {n_speeds} speeds are {runs}")
     print(f"speeds: {speeds_in_words(speeds(config), kept_frequency(config))}")
     moduli = moduli_in_words(young_moduli(config))
     print(f"E = 1 and K = 1: {pressure_in_words(modulus_unit(config))}{moduli}")

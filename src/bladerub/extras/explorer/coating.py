@@ -25,14 +25,10 @@ LAST_ORDER = ORDERS[-1] + 1  # up to which spectra are kept at least, the end of
 AMPLITUDE_FLOOR = 1e-8  # smallest spectral amplitude that the page resolves, m; far below the colour scale
 _SMALLEST = 1e-15  # amplitude of a blade at rest in the pictures of growth, m: a logarithmic axis has no zero
 VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]
-"""Columns of ``divergence.csv`` that the page shows, with the status of the run they rest on."""
-
-BANDS = [
+BANDS = [  # columns of ``run_bands.csv``: NaN for runs without an ensemble
     *("draws", "divergent_draws", "growth_rate_low", "growth_rate_high", "max_wear_low", "max_wear_high"),
     *("lobes_lowest", "lobes_highest"),
 ]
-"""Columns of ``run_bands.csv``: NaN for runs without an ensemble."""
-
 _ESCAPES = str.maketrans({"<": "\\u003c", ">": "\\u003e", "&": "\\u0026"})
 
 

@@ -61,25 +61,12 @@ def build(
         for name, text in coating.parts(coating_map, divergence, runs, revolutions, max_frequency).items():
             data.append(f'<script type="application/gzip" id="{name}-{index}">{text}</script>')
     library, program = package("plotly.offline", "study").get_plotlyjs(), "\n".join(map(_text, _PROGRAM))
-    study = {
-        **settings,
-        "amplitude_range": mm(settings["amplitude_range"]),
-        "made_by": software(),
-        "amplitude_floor": mm(coating.AMPLITUDE_FLOOR),
-        "orders": list(ORDERS),
-        "last_order": coating.LAST_ORDER,
-        "look": _look(),
-        **scales,
-        "coatings": coatings,
-    }
-    return Template(_text("index.html")).substitute(
-        policy=_policy(library, program),
-        style=_text("style.css"),
-        study=coating.json_text(study),
-        data="\n".join(data),
-        library=library,
-        program=program,
-    )
+    study = settings | {"amplitude_range": mm(settings["amplitude_range"]), "made_by": software()}
+    study |= {"amplitude_floor": mm(coating.AMPLITUDE_FLOOR), "orders": list(ORDERS)}
+    study |= {"last_order": coating.LAST_ORDER, "look": _look(), **scales, "coatings": coatings}
+    scripts = {"library": library, "program": program, "policy": _policy(library, program)}
+    texts = {"style": _text("style.css"), "study": coating.json_text(study), "data": "\n".join(data)}
+    return Template(_text("index.html")).substitute(scripts | texts)
 
 
 def _scales(coating_map: CoatingMap, max_frequency: float) -> dict[str, Any]:
@@ -100,15 +87,9 @@ def _coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict
     """Name, properties and peaks of one coating, lengths in mm; a peak or band that is missing is NaN."""
     shown = of_case(peaks, case).reindex(columns=list(_PEAK)).rename(columns=_PEAK)
     shown[["Y", "low", "high"]] *= 1e3
-    return {
-        "name": case.name,
-        "title": titles.coating(case),
-        **asdict(case),
-        "rigid": case.is_rigid,
-        "friction": case.friction,
-        "command": coating.command(case, configs),
-        "peaks": shown.to_dict("records"),
-    }
+    about = {"name": case.name, "title": titles.coating(case), **asdict(case), "rigid": case.is_rigid}
+    about |= {"friction": case.friction, "command": coating.command(case, configs)}
+    return about | {"peaks": shown.to_dict("records")}
 
 
 def _look() -> dict[str, Any]:

@@ -26,10 +26,10 @@ from bladerub.numerics.vectors import LANES
 
 WARP = 32  # lanes of a warp: four groups of the `LANES` nodes
 MOST_RUNS = 4096  # runs of a piece of work at most: what a device leaves of each takes half a megabyte
-COMPLETED, UNBOUNDED, HANDED_OVER = range(3)
-"""How a run ended: at its end, beyond the displacement limit, or where the loop can't go on."""
+COMPLETED, UNBOUNDED, HANDED_OVER = range(3)  # a run ended, left the limit, or the loop can't go on
 COUNTS = ("status", "revolutions", "steps", "last_steps", "contact_steps", "reversed_steps")
 
+# Entries of the ledger in the order of ``loop.cu``: a group of lanes each, and the sum of the groups
 _OF_NODES = (
     *(energy.RADIAL, energy.TANGENTIAL, energy.SLIDING, energy.TORQUE),
     *(energy.EXCHANGED, energy.RETREAT, energy.COUPLE),
@@ -38,7 +38,6 @@ _OF_ELEMENTS = (
     *(energy.SHAPE, energy.WEAR, energy.STORED, energy.STORED_BEFORE, energy.LAST_SHAPE, energy.LAST_WEAR),
     energy.DAMPING,
 )
-"""Entries of the ledger in the order of ``loop.cu``: a group of lanes each, and the sum of the groups."""
 _LEDGER_ROWS = 2 + len(_OF_ELEMENTS) - 1
 FOLDER = Path(__file__).parent
 _FORMS = ("INCREMENT_Q", "INCREMENT_D", "LAST_STEP_Q", "LAST_STEP_D", "LOSS_QQ", "LOSS_QD", "LOSS_DD")
@@ -95,30 +94,16 @@ def variant_of(spec: RunSpec, simulation: Simulation) -> Variant:
 @cache
 def source(variant: Variant) -> str:
     """Put together the source of the loop for runs of a variant."""
-    constants = {
-        "MODES": variant.vectors,
-        "TURNS": int(variant.turns),
-        "ROWS": variant.rows,
-        "SHARED": _shared(variant),
-        "MAX_ITERATIONS": newton.MAX_ITERATIONS,
-        "N_FORMS": free_flight.N_FORMS,
-    } | {name: getattr(free_flight, name) // LANES * WARP for name in _FORMS}
-    numbers = {
-        "TOLERANCE": newton.TOLERANCE,
-        "STRAIGHT": newton.STRAIGHT,
-        "NO_CHANGE": elements.NO_CHANGE,
-        "NO_ADVANCE": elements.NO_ADVANCE,
-    }
-    return "\n".join(
-        [
-            (FOLDER / "lanes.h").read_text(encoding="utf-8"),
-            *(f"constexpr int {name} = {value};" for name, value in constants.items()),
-            *(f"constexpr double {name} = {value!r};" for name, value in numbers.items()),
-            formulas.of_contact(),
-            _formulas_of(variant.law)[0],
-            (FOLDER / "loop.cu").read_text(encoding="utf-8"),
-        ]
-    )
+    constants = {"MODES": variant.vectors, "TURNS": int(variant.turns), "ROWS": variant.rows}
+    constants |= {"SHARED": _shared(variant), "MAX_ITERATIONS": newton.MAX_ITERATIONS}
+    constants |= {"N_FORMS": free_flight.N_FORMS}
+    constants |= {name: getattr(free_flight, name) // LANES * WARP for name in _FORMS}
+    numbers = {"TOLERANCE": newton.TOLERANCE, "STRAIGHT": newton.STRAIGHT}
+    numbers |= {"NO_CHANGE": elements.NO_CHANGE, "NO_ADVANCE": elements.NO_ADVANCE}
+    lanes, loop = ((FOLDER / name).read_text(encoding="utf-8") for name in ("lanes.h", "loop.cu"))
+    parts = [f"constexpr int {name} = {value};" for name, value in constants.items()]
+    parts += [f"constexpr double {name} = {value!r};" for name, value in numbers.items()]
+    return "\n".join([lanes, *parts, formulas.of_contact(), _formulas_of(variant.law)[0], loop])
 
 
 class Work(NamedTuple):
@@ -160,11 +145,7 @@ def longest_first(works: Sequence[Work]) -> np.ndarray:
 
 
 def described_to_loop(work: Work, addresses: Iterable[int]) -> np.ndarray:
-    """Describe a piece of work as ``Batch`` of ``loop.cu``.
-
-    `addresses` are those of its records, runs and modes, in their order in `Work`, and of what is left, in
-    their order in `described`.
-    """
+    """Describe ``Batch`` of ``loop.cu``; `addresses`: of arrays in the order of `Work`, then `described`."""
     return np.array([work.n_elements, work.revolutions, *addresses], dtype=np.int64)
 
 
@@ -188,11 +169,15 @@ def pack(variant: Variant, simulations: Sequence[Simulation]) -> Work:
     modes = np.zeros((len(simulations), 2, WARP * variant.vectors))
     tables: list[dict[bytes, int]] = [{} for _ in range(4)]  # numbers of records, those of each kind once
     for i, simulation in enumerate(simulations):
+        stator, tip = simulation.stator, simulation.tip
+        tilt = stator.further_compliance if turns else np.zeros(LANES)
+        factors = [stator.normal_factor, stator.tangential_factor]
+        scalars = [tip.half_width, tip.curvature, tip.search_range, tip.limit]
         records = (
             _modal_record(simulation.modal, simulation.flight, variant.vectors, turns),
-            _stator_record(simulation, turns),
-            np.concatenate([simulation.stator.initial_gap.ravel(), simulation.stator.minimum_gap]),
-            _tip_record(simulation),
+            np.concatenate([stator.law.ravel(), stator.self_compliance, tilt, factors]),
+            np.concatenate([stator.initial_gap.ravel(), stator.minimum_gap]),
+            np.concatenate([tip.start, tip.per_metre, tip.radius, tip.lever, scalars]),
         )
         for kind, (table, record) in enumerate(zip(tables, records, strict=True)):
             runs[i, kind] = table.setdefault(record.tobytes(), len(table))
@@ -258,25 +243,6 @@ def _modal_record(modal: Modal, flight: FreeFlight, vectors: int, turns: bool) -
     response = [compliance[width // 2 * (group & 1) + k, row] for k in range(width // 2)]
     if turns:
         response += [compliance[width // 4 * group + k, 2 * LANES + node] for k in range(width // 4)]
-    return np.concatenate(
-        [
-            coefficients.ravel(),
-            np.stack(slots, axis=1).ravel(),  # (vectors, slots, 32)
-            flat(flight.forms).ravel(),
-            np.array(response).ravel(),
-            [float(flight.n_steps), flight.sideways],
-        ]
-    )
-
-
-def _stator_record(simulation: Simulation, turns: bool) -> np.ndarray:
-    stator = simulation.stator
-    tilt = stator.further_compliance if turns else np.zeros(LANES)
-    factors = [stator.normal_factor, stator.tangential_factor]
-    return np.concatenate([stator.law.ravel(), stator.self_compliance, tilt, factors])
-
-
-def _tip_record(simulation: Simulation) -> np.ndarray:
-    tip = simulation.tip
-    scalars = [tip.half_width, tip.curvature, tip.search_range, tip.limit]
-    return np.concatenate([tip.start, tip.per_metre, tip.radius, tip.lever, scalars])
+    projection = np.stack(slots, axis=1)  # (vectors, slots, 32)
+    parts = [part.ravel() for part in (coefficients, projection, flat(flight.forms), np.array(response))]
+    return np.concatenate([*parts, [float(flight.n_steps), flight.sideways]])

@@ -40,10 +40,7 @@ def connect() -> Any:
 
 
 def run(works: Iterable[Work], watch: Callable[[float], None] = lambda seconds: None) -> Iterator[Output]:
-    """Carry out the loop for pieces of work, as many together as fit; yield what each leaves.
-
-    `watch` is told the seconds that those took which ran together, without transfers. Raises `NoGpuError`.
-    """
+    """Carry out the loop for as many pieces as fit; `watch` is told their seconds, without transfers."""
     limit = SHARE * connect().cuda.Device().mem_info[1]
     together: list[Work] = []
     taken = 0
@@ -94,10 +91,7 @@ def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iter
 
 
 def _prepare(works: Mapping[int, Work], arrays: dict[int, _Arrays]) -> Callable[[], None]:
-    """Bring pieces of work of one program to the GPU, and return their launch.
-
-    The arrays of each are entered into `arrays`, by the number of the piece.
-    """
+    """Bring pieces of work of one program to the GPU and into `arrays` by number; return their launch."""
     import cupy
 
     batches = []

@@ -26,10 +26,7 @@ def is_possible() -> bool:
 
 
 def run(works: Iterable[Work], real: str = "double") -> Iterator[Output]:
-    """Carry out the loop with numbers of the C++ type `real`; raises `OSError` if there is no compiler.
-
-    What it reads, and what it keeps from step to step, are doubles: forces, wear and ledger.
-    """
+    """Carry out the loop in numbers of the C++ type `real`; what it keeps in arrays are doubles."""
     return (_run(work, real) for work in works)
 
 

@@ -28,10 +28,9 @@ def of_contact() -> str:
 
 
 def of_law(law: ModuleType, source: str = "") -> str:
-    """Translate the functions of a law, and what they call, and describe its elements.
+    """Describe the elements of a law and translate its functions; `source` is its text, if in no file.
 
-    `source` is the text of its module, if that is not a file. Raises `ValueError`, which names function and
-    expression, if one has what is not known here.
+    Raises `ValueError`, which names function and expression, if one has what is not known here.
     """
     fields = law.Element._fields
     loaded = ", ".join(f"load(from, j + 8 * {row})" for row in range(len(fields)))

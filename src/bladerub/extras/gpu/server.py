@@ -26,10 +26,7 @@ def find() -> Device:
 
 
 def ask(works: Iterable[Work]) -> Iterator[Output]:
-    """Let the server carry out the loop for pieces of work.
-
-    Raises `bladerub.extras.gpu.device.NoGpuError` if it does not answer, and what it raises.
-    """
+    """Let the server carry out the loop; raises `NoGpuError` if it does not answer, and what it raises."""
     address = os.environ[ADDRESS]
     works = list(works)
     try:
@@ -81,10 +78,7 @@ def _compute(requests: "queue.SimpleQueue[_Request]", run: Device) -> None:
 
 
 def main() -> None:
-    """Serve the GPU at the socket that the command line names, until standard input ends with its writer.
-
-    The folder of the socket is deleted then. ``--emulated``, after the socket, is for tests without a GPU.
-    """
+    """Serve the GPU at the socket of the command line, in a folder of its own, until standard input ends."""
     address, emulated = Path(sys.argv[1]), "--emulated" in sys.argv
     try:
         with exit_on_error():

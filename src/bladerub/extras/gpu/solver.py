@@ -8,9 +8,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.gpu import ADDRESS
 from bladerub.io import sources
@@ -23,13 +23,7 @@ class Gpu(Solver):
     wants_many = True
 
     def simulate_many(
-        self,
-        blade: ReducedBlade,
-        specs: Sequence[RunSpec],
-        threads: int = 1,
-        report: Callable[[str], None] = lambda line: None,
-        progress: Callable[[int], None] | None = None,
-        longer: Callable[[int, RunResult], int] | None = None,
+        self, blade: ReducedBlade, specs: Sequence[RunSpec], _: int, report: Callable[[str], None], *__: Any
     ) -> Iterator[Solved]:
         """Yield each run as it is done; raises `bladerub.extras.gpu.device.NoGpuError` without a GPU."""
         from bladerub.extras.gpu import many, server  # load the compiler: who plans runs alone does without
@@ -49,10 +43,7 @@ class Gpu(Solver):
             device.connect()
 
     def start(self) -> None:
-        """Start the process that has the GPU, `bladerub.extras.gpu.server`, for the jobs of this one.
-
-        It ends with this one, which ends without a GPU. One that the environment names already is used.
-        """
+        """Start `bladerub.extras.gpu.server`, if there is none, for the jobs of this process."""
         if os.environ.get(ADDRESS):
             return
         address = Path(tempfile.mkdtemp(prefix="bladerub-gpu-")) / "socket"

@@ -16,9 +16,7 @@ from bladerub.contact.law import elastic_force, stored_energy
 from bladerub.contact.spec import Coating
 from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum, where
 
-PARAMETERS = {
-    "break_strain": ("1", 1e-9, 1e9, "elastic strain at which an element breaks off"),
-}
+PARAMETERS = {"break_strain": ("1", 1e-9, 1e9, "elastic strain at which an element breaks off")}
 
 _SOFT = 1e-300  # N/m: hardening below this is none
 

@@ -34,12 +34,12 @@ def panels(coating: Coating) -> Panels:
         loaded = replace(of_study, element_law=described_law(name, parameters))
         return loading_cycle(loaded, STRAINS, STEPS, rate, rise)
 
+    ideal = {
+        f"yields at {stress / 1e6:g} MPa": cycle("perfectly_plastic", yield_stress=stress)
+        for stress in (4e6, 8e6)
+    }
     return {
-        "(a) perfectly plastic": {"linear hardening": cycle("plastic")}
-        | {
-            f"yields at {stress / 1e6:g} MPa": cycle("perfectly_plastic", yield_stress=stress)
-            for stress in (4e6, 8e6)
-        },
+        "(a) perfectly plastic": {"linear hardening": cycle("plastic")} | ideal,
         f"(b) viscoplastic, {VISCOSITY:g} Pa s": {
             f"{rate:g}/s": cycle("viscoplastic", rate, viscosity=VISCOSITY) for rate in (1.0, 300.0, 1500.0)
         },
@@ -56,14 +56,12 @@ def panels(coating: Coating) -> Panels:
 
 def table(panels: Panels) -> pd.DataFrame:
     """List the points of all cycles, a row each, with law and label."""
-    return pd.concat(
-        pd.DataFrame(
-            {"element_law": loading.coating.element_law.label, "law_case": label}
-            | {name: getattr(loading, name) for name in ("strain", "stress", "plastic_strain")}
-        )
-        for cycles in panels.values()
-        for label, loading in cycles.items()
-    )
+    parts = []
+    for label, loading in (pair for cycles in panels.values() for pair in cycles.items()):
+        names = {"element_law": loading.coating.element_law.label, "law_case": label}
+        columns = {name: getattr(loading, name) for name in ("strain", "stress", "plastic_strain")}
+        parts.append(pd.DataFrame(names | columns))
+    return pd.concat(parts)
 
 
 @style.styled

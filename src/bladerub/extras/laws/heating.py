@@ -29,8 +29,7 @@ DATASETS = {
     "temperature_rise": (("node", "angle"), "K", "by which the surface of the coating is warmer at the end")
 }
 
-HEATED, CELLS = 3, 12
-"""Finite volumes of the heated depth, all alike, and of a column, where they grow towards the casing."""
+HEATED, CELLS = 3, 12  # finite volumes of the heated depth, all alike, and of a column, growing below it
 
 
 class Layer:
@@ -68,10 +67,7 @@ class Layer:
         return type(parts[0])(*map(sum, counts), min(lowest), max(highest))
 
     def rest(self, state: "State", first: int, last: int, turn: float = 1.0) -> None:
-        """Let the rows `first` to `last`, which a tip has passed, be until the next one comes.
-
-        That is after a part `turn` of a revolution.
-        """
+        """Let the rows `first` to `last`, which a tip has passed, be for a part `turn` of a revolution."""
         rows = np.arange(first, last) % len(state.taken)
         rows = rows[state.taken[rows].any(axis=1) | state.layer[rows].any(axis=1)]
         amplitude = self._amplitude_after(state, rows, turn)

@@ -21,9 +21,7 @@ from bladerub.contact.law import (
 )
 from bladerub.contact.spec import Coating
 
-PARAMETERS = {
-    "yield_stress": ("Pa", 1e3, 1e12, "stress at which an element yields"),
-}
+PARAMETERS = {"yield_stress": ("Pa", 1e3, 1e12, "stress at which an element yields")}
 
 
 def element(coating: Coating, area: float | np.ndarray, time_step: float = math.inf) -> Element:

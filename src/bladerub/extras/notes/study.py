@@ -1,9 +1,4 @@
-"""What is worth knowing of a valid config: what of the paper's study it leaves out, and what is doubtful.
-
-Who replaces coatings, casings or speeds need not change what the study of the paper says of those that were
-there: its histories of runs that are not planned have no effect, and casings that do not excite its engine
-orders have others (`bladerub.study.peaks`).
-"""
+"""What is worth knowing of a valid config: what of the paper's study it leaves out, and what is doubtful."""
 
 from collections.abc import Iterator
 
@@ -63,10 +58,9 @@ def _idle_orders(config: Config) -> Iterator[str]:
             why = f"nodal diameters {diameters} of casing {name} do not excite {idle}"
             key = f"casings.{name}.peak_orders"
             setting = key if config.casings[name].peak_orders else "analysis.peaks.orders"
-            excited = excited_orders(config, name)
-            remedy = (
-                f"try {excited} as {key}" if excited else "none that it excites crosses C1 at these speeds"
-            )
+            remedy = "none that it excites crosses C1 at these speeds"
+            if excited := excited_orders(config, name):
+                remedy = f"try {excited} as {key}"
             yield f"{setting} = {orders}: {why}; {remedy}"
 
 

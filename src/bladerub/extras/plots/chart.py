@@ -22,9 +22,7 @@ from bladerub.plots.maps import edges
 PAPER_E = (0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0)  # moduli of the paper's Figs. 11 to 14,
 PAPER_K = (0.05, 0.1, 0.5, 1.0, 5.0, 10.0)  # which make 54 coatings
 LETTERS = {"amplitude": "A", "wear": "W", "divergent_share": "D", "fatigue": "F"}  # of exceeded limits
-_SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08", "#4d2604"]
-"""From none to all limits exceeded, the last where the stress is limited too."""
-
+_SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08", "#4d2604"]  # from none to all limits exceeded
 _PAPER = {"marker": "o", "mfc": "white", "mec": style.DARK, "mew": 0.5, "ls": "none"}
 _RIDGE = {"color": style.DARK, "linewidth": 1.3, "marker": "s", "markersize": 2.2}
 _RIDGE_OF = {"peak": "displacement", "worn_volume": "worn volume"}
@@ -46,12 +44,11 @@ class Quantity(NamedTuple):
     logarithmic: bool  # colours of amplitudes and volumes, which spread over decades
 
 
-QUANTITIES = {
+QUANTITIES = {  # drawn besides Y_k and f_k of each engine order, by column of ``chart.csv``
     "peak": Quantity("greatest radial displacement of node 1 (mm)", 1e3, "peak", True),
     "worn_volume": Quantity("greatest worn volume (cm³)", 1e6, "worn_volume", True),
     "divergent_share": Quantity("share of divergent speeds (%)", 100.0, "peak", False),
 }
-"""What is drawn besides Y_k and f_k of each engine order, by column of ``chart.csv``."""
 
 
 def drawn_quantity(column: str) -> Quantity:
@@ -114,10 +111,7 @@ def _ridge(axes: Axes, grid: pd.DataFrame) -> None:
 
 @style.styled
 def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Limits, unit: float) -> Figure:
-    """Draw for each θ which coatings of ``chart.csv`` exceed which of the `limits`.
-
-    `broken` is for the same rows, from `bladerub.extras.chart.table.broken_limits`; E = 1 is `unit`, Pa.
-    """
+    """Draw for each θ which rows of ``chart.csv`` exceed which `limits`; E = 1 is `unit`, Pa."""
     lettered = broken.rename(columns=LETTERS)
     judged = chart.assign(broken=broken.sum(axis=1), letters=lettered.dot(lettered.columns))
     figure = style.new_figure(style.PAGE, 0.55 * style.PAGE)
@@ -218,10 +212,7 @@ def _draw(axes: Axes, points: pd.DataFrame, column: str) -> None:
 
 @style.styled
 def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) -> Figure:
-    """Draw f_k of all points of ``chart_explanation.csv`` over E_T, a panel for each order.
-
-    `summary` is from `bladerub.extras.chart.stiffening.table`; E = 1 is `unit`, Pa.
-    """
+    """Draw f_k of ``chart_explanation.csv`` over E_T by order; `summary` is of this, E = 1 is `unit`, Pa."""
     orders = sorted(peaks.order.unique())
     figure = style.new_figure(style.PAGE, 0.52 * style.PAGE)
     row = figure.subplots(1, len(orders), squeeze=False)[0]
@@ -246,10 +237,7 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) ->
 
 @style.styled
 def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
-    """Draw for each θ the greatest displacement against the greatest worn volume.
-
-    `chart` is ``chart.csv``, `front` is from `bladerub.extras.chart.table.pareto`.
-    """
+    """Draw the greatest displacement over worn volume in ``chart.csv`` for each θ; `front` is of `pareto`."""
     angles = sorted(chart.theta.unique())
     chart, front = (rows[rows.worn_volume > 0] for rows in (chart, front))  # for the logarithmic axis
     figure = style.new_figure(style.PAGE, 0.5 * style.PAGE)

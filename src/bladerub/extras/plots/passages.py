@@ -23,7 +23,6 @@ _RATES = (
     {"color": RED, "linestyle": ":", "linewidth": 1.2},
 )
 _CONSTANT = {"color": GREY, "marker": "o", "markersize": 1.8, "linestyle": "none"}
-_CONSTANT |= {"label": "constant speed, last revolution"}
 _ARROWS = {"up": "speed rises →", "down": "← speed falls"}
 
 
@@ -31,18 +30,15 @@ _ARROWS = {"up": "speed rises →", "down": "← speed falls"}
 def sweeps(
     swept: Sequence[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap], scales: Scales = UNKNOWN
 ) -> Figure:
-    """Draw half the range of the displacement in each revolution over the speed, a row for each coating.
-
-    `maps` has the same coatings at constant speed, `scales` are of the blade. Up to four rates have
-    different lines.
-    """
+    """Draw half the range in each revolution over the speed, a row for each coating, beside its map."""
     rates = sorted({sweep.rate for sweep in swept})
     looks = {rate: _RATES[index % len(_RATES)] for index, rate in enumerate(rates)}
     figure = new_figure(PAGE, 0.2 * PAGE + 0.24 * PAGE * len(maps))
     panels = figure.subplots(len(maps), 2, sharex=True, sharey="row", squeeze=False)
     for row, (case, constant) in zip(panels, maps.items(), strict=True):
         for axes, direction in zip(row, DIRECTIONS, strict=True):
-            axes.plot(constant.f_omega, 1e3 * constant.revolution_amplitude[:, -1], **_CONSTANT)
+            amplitude = 1e3 * constant.revolution_amplitude[:, -1]
+            axes.plot(constant.f_omega, amplitude, label="constant speed, last revolution", **_CONSTANT)
             for sweep in swept:
                 if (sweep.case, sweep.direction) == (case, direction):
                     _draw_sweep(axes, sweep, looks[sweep.rate])
@@ -80,13 +76,8 @@ def _limit(axes: Axes, case: CoatingCase, swept: Sequence[SpeedSweep], constant:
     axes.set_ylim(0, 1.08e3 * greatest(*bounded))
 
 
-_VERDICTS = {
-    "free": "#ffffff",
-    "steady": "#dfe7ee",
-    "saturating": BLUE,
-    "divergent": ORANGE,
-    "unbounded": RED,
-}
+_VERDICTS = {"free": "#ffffff", "steady": "#dfe7ee", "saturating": BLUE}
+_VERDICTS |= {"divergent": ORANGE, "unbounded": RED}
 _HATCHES = {"divergent": "//", "unbounded": "xx"}
 _FLOOR = 1e-3  # lowest amplitude that is drawn, mm: below it a vibration has died out
 _GROWTH = {True: {"color": DARK, "linewidth": 0.7}, False: {"color": GREY, "linewidth": 0.5}}
@@ -111,15 +102,9 @@ def _draw_growth(axes: Axes, coatings: Sequence[LongRuns]) -> None:
             grows = why == "grows"
             number, label = np.arange(1, amplitude.size + 1), labels.pop(grows, "_more")
             axes.plot(number, 1e3 * amplitude, label=label, zorder=2 + grows, **_GROWTH[grows])
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlim=(1, number[-1]),
-        ylim=(_FLOOR, 3e3 * greatest(*bounded)),
-        xlabel="revolution",
-        ylabel="amplitude (mm)",
-        title="(a) half the range of $u_r$ in each revolution",
-    )
+    limits = {"xlim": (1, number[-1]), "ylim": (_FLOOR, 3e3 * greatest(*bounded))}
+    axes.set(xscale="log", yscale="log", xlabel="revolution", ylabel="amplitude (mm)", **limits)
+    axes.set_title("(a) half the range of $u_r$ in each revolution")
     axes.legend()
 
 
@@ -127,10 +112,8 @@ def _draw_verdicts(axes: Axes, table: pd.DataFrame) -> None:
     counts = pd.crosstab(table.revolutions, table.verdict).reindex(columns=list(_VERDICTS), fill_value=0)
     bottom, places = np.zeros(len(counts)), np.arange(len(counts))
     for verdict, color in _VERDICTS.items():
-        n = counts[verdict].to_numpy()
-        bars = axes.bar(
-            places, n, bottom=bottom, color=color, hatch=_HATCHES.get(verdict), label=verdict, edgecolor=GREY
-        )
+        n, look = counts[verdict].to_numpy(), {"color": color, "hatch": _HATCHES.get(verdict)}
+        bars = axes.bar(places, n, bottom=bottom, label=verdict, edgecolor=GREY, **look)
         axes.bar_label(bars, [f"{count}" if count else "" for count in n], label_type="center", fontsize=7)
         bottom += n
     axes.set_xticks(places, [f"{revolutions}" for revolutions in counts.index])
@@ -147,12 +130,6 @@ def _draw_cost(axes: Axes, coatings: Sequence[LongRuns]) -> None:
     low, middle, high = np.quantile(cost, [0.1, 0.5, 0.9], axis=0)
     axes.fill_between(number, low, high, color="#dfe7ee", label="eight runs of ten")
     axes.plot(number, middle, color=DARK, label="median of the runs that stay in bounds")
-    axes.set(
-        xscale="log",
-        xlim=(1, number[-1]),
-        ylim=(0, 1.4 * greatest(high)),
-        xlabel="revolution",
-        ylabel="ms per revolution until there",
-        title="(c) cost",
-    )
+    axes.set(xscale="log", xlim=(1, number[-1]), ylim=(0, 1.4 * greatest(high)), title="(c) cost")
+    axes.set(xlabel="revolution", ylabel="ms per revolution until there")
     axes.legend(loc="upper right")

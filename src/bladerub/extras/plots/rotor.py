@@ -22,11 +22,7 @@ _GAP = 3.0  # steps of the speed over their median
 
 @styled
 def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
-    """Draw medians and the interval of 90 % of the draws, a column of panels for each coating and speed.
-
-    `table` is that of `bladerub.extras.rotor.summary.combinations`; the shares are in parts of an even
-    one.
-    """
+    """Draw medians and 90 % of the draws of `extras.rotor.summary`; shares of wear are over even ones."""
     groups: dict[tuple, list] = {}
     for combination in plan.compared:
         if combination.blades > 1 or combination != combination.alone:
@@ -92,10 +88,7 @@ def _rows_of(members: list[Combination], table: pd.DataFrame) -> list[pd.Series]
 
 @styled
 def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
-    """Draw the amplitude of rows over the speed, beside that of the single blade, and how many rows diverge.
-
-    A column of panels for each coating of the sweeps of `plan`; `table` as of `rotor`.
-    """
+    """Draw amplitude and share of divergent rows over the speed, a column for each coating of the sweeps."""
     groups: dict[CoatingCase, list[Combination]] = {}
     for combination in plan.swept:
         groups.setdefault(combination.case, []).append(combination)
@@ -107,11 +100,9 @@ def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
         speeds, single = np.array([(member.f_omega, member == member.alone) for member in members]).T
         _draw_sweep(upper, lower, pd.DataFrame(rows).reset_index(drop=True), speeds, single.astype(bool))
         upper.set_title(f"E = {case.E:g}, K = {case.K:g}\nθ = {case.theta:g} rad", fontsize=8)
-    panels[0, 0].set_ylabel("amplitude (mm)")
-    panels[1, 0].set_ylabel("share of the rows")
+    panels[0, 0].set(ylabel="amplitude (mm)", ylim=(0, None))
+    panels[1, 0].set(ylabel="share of the rows", ylim=(-0.03, 1.03))
     panels[1, 0].set_xlabel(r"rotational frequency $f_\Omega$ (normalised)", loc="left")
-    panels[0, 0].set_ylim(bottom=0)
-    panels[1, 0].set_ylim(-0.03, 1.03)
     handles = [line for axes in panels[:, 0] for line in axes.get_legend_handles_labels()[0]]
     figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=8)
     return figure

@@ -20,10 +20,7 @@ _DEPTHS = {"tip_depth": ("of the tip", style.BLUE, 1e6), "worn_depth": ("worn", 
 
 @style.styled
 def friction(table: pd.DataFrame, scales: Scales = UNKNOWN) -> Figure:
-    """Draw the difference of the peaks and the slowest sliding over the speed, a colour for each coating.
-
-    `table` is from `bladerub.extras.friction.table.table`, `scales` the blade.
-    """
+    """Draw difference of peaks and slowest sliding of `extras.friction.table`, a colour for each coating."""
     figure = style.new_figure(style.PAGE, 0.85 * style.PAGE)
     difference, sliding = figure.subplots(2, 1, sharex=True)
     for number, ((casing, E, K, theta), rows) in enumerate(table.groupby(["casing", "E", "K", "theta"])):
@@ -49,10 +46,7 @@ def friction(table: pd.DataFrame, scales: Scales = UNKNOWN) -> Figure:
 
 @style.styled
 def stress(table: pd.DataFrame, scales: Scales) -> Figure:
-    """Draw the stress of the last revolutions over speed and displacement, a colour for each engine order.
-
-    `table` is from `bladerub.extras.stress.run`, `scales` the blade.
-    """
+    """Draw the stress (`extras.stress.run`) over speed and displacement, a colour for each engine order."""
     figure = style.new_figure(style.PAGE, 0.55 * style.PAGE)
     over_speed, over_displacement = figure.subplots(1, 2)
     looks = zip(cycle(_MARKERS), cycle(_ORDER_COLOURS), strict=False)
@@ -75,10 +69,7 @@ def stress(table: pd.DataFrame, scales: Scales) -> Figure:
 
 @style.styled
 def rigs(passes: pd.DataFrame, compared: pd.DataFrame) -> Figure:
-    """Draw forces and worn depth of each rig over its passes, and what was measured in the last one.
-
-    `passes` and `compared` are of `bladerub.extras.rig.passes`.
-    """
+    """Draw forces and worn depth of each rig over its passes (`extras.rig.passes`), and the measured ones."""
     names = list(passes.rig.unique())
     figure = style.new_figure(style.PAGE, 0.3 * style.PAGE * len(names))
     grid = figure.subplots(len(names), 2, squeeze=False)

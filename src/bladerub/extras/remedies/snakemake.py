@@ -1,5 +1,12 @@
-"""Remedies for Snakemake 9.27, at the plan and at the start of an invocation."""
+"""Remedies for Snakemake 9.27, at the plan and at the start of an invocation.
 
+Its own lock outlives a killed process and has to be removed by hand (``--unlock``), before anything can be
+planned; so the profile switches it off (``nolock``). A claim here is a file that its process locks: the
+kernel drops that lock when the process dies.
+"""
+
+import atexit
+import json
 import math
 import os
 import re
@@ -7,19 +14,18 @@ import signal
 import sys
 import threading
 import time
+import uuid
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from bladerub.extras.remedies import claims
+from bladerub.io import lock
 from bladerub.io.errors import BadInput
 
 _SECOND_INTERRUPT = 5.0  # s
 
-START_OF_JOBS = Path(__file__).with_name("start_of_jobs")
-"""What Python executes at the start of all jobs: a folder for their ``PYTHONPATH``."""
-
+START_OF_JOBS = Path(__file__).with_name("start_of_jobs")  # for the ``PYTHONPATH`` of jobs: executed there
 _DEFAULT_JOB_RATE = (100, 1)  # jobs, seconds
 
 
@@ -43,8 +49,7 @@ def begin() -> None:
 def start(workflow: Any, results: Iterable[str]) -> None:
     """Claim the files of Snakemake's `workflow`, and be ready for what ends it.
 
-    Files of the future in the folders `results` become of now. Raises as `bladerub.extras.remedies.claims`,
-    and where the jobs could not start.
+    Files of the future in the folders `results` become of now. Raises as `claim`, and where no job can start.
     """
     if re.search(r"[\s'\"\\$`&;|<>()*?[\]!]", sys.executable):
         raise BadInput(
@@ -52,7 +57,7 @@ def start(workflow: Any, results: Iterable[str]) -> None:
             "environment in a folder without spaces and special characters (that of the study may have them)"
         )
     persistence = workflow.persistence
-    if claims.claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):
+    if claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):
         print("bladerub: the last snakemake here was killed; what it had finished is kept", file=sys.stderr)
     _handle_termination_beside()
     _schedule_by_events(workflow)
@@ -62,11 +67,35 @@ def start(workflow: Any, results: Iterable[str]) -> None:
         date_back(folder)
 
 
-def date_back(results: str | Path) -> None:
-    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure.
+def claim(folder: str | Path, outputs: Iterable[str], inputs: Iterable[str]) -> bool:
+    """Claim `outputs` to write and `inputs` to read for this process; return whether one was killed before.
 
-    What another invocation takes away meanwhile, or the system refuses, is left as it is.
+    A claim is a file in `folder` and goes with its process; those of killed ones are deleted. Raises
+    `BadInput` if another living process makes what this one makes or needs, or needs what this one makes.
     """
+    folder, killed = Path(folder), False
+    makes, needs = set(map(str, outputs)), set(map(str, inputs))
+    with lock.held(folder / ".lock", lambda: None):
+        for path in sorted(folder.glob("*.json")):
+            if dead := lock.attempt(path):
+                path.unlink()
+                dead.close()
+                killed = True
+                continue
+            other = json.loads(path.read_text(encoding="utf-8"))
+            if common := (makes | needs) & set(other["makes"]) | makes & set(other["needs"]):
+                problem = f"another snakemake is at work in this folder, on {min(common)}"
+                raise BadInput(f"{problem}: wait for its end")
+        path = folder / f"{uuid.uuid4().hex}.json"
+        stream = lock.attempt(path)
+        json.dump({"makes": sorted(makes), "needs": sorted(needs)}, stream)
+        stream.flush()
+    atexit.register(lambda: (path.unlink(missing_ok=True), stream.close()))
+    return killed
+
+
+def date_back(results: str | Path) -> None:
+    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure."""
     now, n_future = time.time(), 0
     for folder, _, names in os.walk(results):
         for path in (os.path.join(folder, name) for name in names):
@@ -75,10 +104,8 @@ def date_back(results: str | Path) -> None:
                     os.utime(path, (now, now), follow_symlinks=False)
                     n_future += 1
     if n_future:
-        print(
-            f"bladerub: files of the future, by a clock that was ahead: {n_future}; they are of now",
-            file=sys.stderr,
-        )
+        text = f"files of the future, by a clock that was ahead: {n_future}; they are of now"
+        print(f"bladerub: {text}", file=sys.stderr)
 
 
 def _handle_termination_beside() -> None:

@@ -33,10 +33,7 @@ def shown(results: Results, most: int) -> list[str]:
 
 
 def changes(results: Results, names: Sequence[str]) -> Iterator[tuple[str, str, str]]:
-    """Find the best coating that differs in one property alone, for each coating and property.
-
-    Yields both names and what changes, where the highest peak is lower.
-    """
+    """Yield a coating, the best that differs in one property alone if its peak is lower, and what changes."""
     heights, cases = results.coatings.amplitude, results.cases
     for name in names:
         for key in () if cases[name].is_rigid else ("casing", "E", "K", "theta"):
@@ -57,10 +54,7 @@ def quiet(results: Results, name: str) -> str:
 
 
 def lowest(results: Results) -> Iterator[tuple[str, pd.Series]]:
-    """Find the coating of each casing with the lowest peak, and that of those that never diverge.
-
-    Yields what it is the lowest of, and its row of `Results.coatings`.
-    """
+    """Yield the coating of each casing with the lowest peak, and that of those that diverge at no speed."""
     for casing in used_casings(results.config):
         cases = results.coatings.name.map(results.cases)
         table = results.coatings[[case.casing == casing and not case.is_rigid for case in cases]]

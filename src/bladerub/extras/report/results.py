@@ -55,11 +55,7 @@ def files(config: Config, folder: Path) -> list[Path]:
 
 
 def read(config: Config, folder: Path) -> Results:
-    """Read a finished study from the results `folder`.
-
-    Raises `OSError`, naming the file, if one is damaged, and `ValueError` if tables and maps are not of the
-    same coatings and speeds.
-    """
+    """Read a finished study from `folder`; `OSError` if a file is damaged, `ValueError` if files disagree."""
     f1_hz = float(hdf5.read_attributes(folder / BLADE)["f1_hz"])
     verdicts = tables.read(folder / "tables/divergence.csv", divergence.COLUMNS)
     verdicts = with_further(verdicts, folder / "tables/run_bands.csv")

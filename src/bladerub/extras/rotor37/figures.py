@@ -51,10 +51,7 @@ def figures(config: Config, folder: str, history: pd.DataFrame) -> dict[str, Fig
 
 @style.styled
 def response(panels: Mapping[str, Mapping[str, CoatingMap]], f1_hz: float, nominal: float) -> Figure:
-    """Draw the amplitude of the last revolutions over the rotor speed, a panel each of named coatings.
-
-    Runs that ended as unbounded are crosses at the top. `nominal` is the design speed, 1/min.
-    """
+    """Draw the last amplitude over the rotor speed, a panel each of named coatings; `nominal` is in 1/min."""
     figure = style.new_figure(style.PAGE, 0.36 * style.PAGE * len(panels))
     rows = figure.subplots(len(panels), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for axes, (title, coatings) in zip(rows, panels.items(), strict=True):
@@ -75,10 +72,7 @@ def response(panels: Mapping[str, Mapping[str, CoatingMap]], f1_hz: float, nomin
 
 @style.styled
 def direct_contact(history: pd.DataFrame, spec: RunSpec, node_angle: float) -> Figure:
-    """Draw the displacement of node 1 in the last revolution and the gap that it meets, m in `history`.
-
-    `node_angle` is that of node 1 from the stacking line, rad, positive with the rotation.
-    """
+    """Draw the last revolution of node 1 and the gap over it, m; `node_angle` from the stacking line, rad."""
     stiffness = history.case.str.partition("_mu")
     titles = {"rest": "without centrifugal stiffening", "stiffened": "with centrifugal stiffening"}
     figure = style.new_figure(style.PAGE, 0.62 * style.PAGE)

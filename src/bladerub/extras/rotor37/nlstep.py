@@ -32,9 +32,7 @@ from bladerub.settings.study import Config
 VARIABLE = "BLADERUB_NLSTEP"  # environment variable with the folder of `FUNCTION`
 FUNCTION = "sim_contact3D.m"
 OCTAVE = "octave-cli"
-DRIVER = Path(__file__).parent / "octave" / "direct_contact.m"
-"""What Octave runs; the class next to it is the model as NLstep expects it."""
-
+DRIVER = Path(__file__).parent / "octave" / "direct_contact.m"  # the class next to it is NLstep's model
 CASES = [  # coefficient of friction, modes that move, and time steps in a revolution
     *((0.0, 20, 1500), (0.0, 20, 3000)),
     *((0.15, 10, 1500), (0.15, 20, 1500), (0.15, 20, 3000), (0.15, 50, 4000)),
@@ -79,10 +77,7 @@ def directions(blade: ReducedBlade) -> np.ndarray:
 
 
 def case(blade: ReducedBlade, spec: RunSpec, n_modes: int, steps: int) -> dict[str, Any]:
-    """State a run on the rigid casing in NLstep's terms, with `steps` in a revolution.
-
-    Arrays are over the j nodes and the ``revolutions * steps + 1`` times, SI units.
-    """
+    """State a run on the rigid casing for NLstep; arrays over nodes and times, SI units."""
     mass, damping, stiffness = massless_boundary(blade, spec.f_omega, spec.damping_ratio, n_modes)
     speed = 2 * np.pi * spec.f_omega * blade.f1_hz
     time = np.arange(spec.revolutions * steps + 1) * (2 * np.pi / speed / steps)
@@ -90,11 +85,8 @@ def case(blade: ReducedBlade, spec: RunSpec, n_modes: int, steps: int) -> dict[s
     clearance = running_clearance(blade, spec)[:, None]
     angle = (spec.casing.start_angle + np.arctan2(y, z))[:, None] + speed * time
     before, after = (casing.gap(spec.casing, clearance, angle + sign * _DIFFERENCE) for sign in (-1, 1))
-    return {
-        "mass": mass,
-        "damping": damping,
-        "stiffness": stiffness,
-        "time": time,
+    model = {"mass": mass, "damping": damping, "stiffness": stiffness, "time": time}
+    return model | {
         "gap": casing.gap(spec.casing, clearance, angle),
         "opening_speed": (after - before) / (2 * _DIFFERENCE) * speed,
         "sliding_speed": tip_radii(blade)[0] * speed,

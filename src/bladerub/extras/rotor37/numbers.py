@@ -15,9 +15,7 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import peak_settings
 from bladerub.study.spectra import order_spectrum
 
-COLUMNS = ["number", "value", "unit", "resolution"]
-"""Columns of the numbers of one calculation; ``resolution`` is that of the grid they are read from."""
-
+COLUMNS = ["number", "value", "unit", "resolution"]  # the last is that of the grid they are read from
 ORDERS = (4, 6, 8, 10, 12)  # engine orders whose crossing with the first frequency lies within the speeds
 _N_FREQUENCIES = 6
 _LAST = 5  # revolutions at the end over which a response counts as steady

@@ -1,8 +1,7 @@
 """The functions of the time loop where the profile of the tip turns with the blade.
 
 Its tilt (m per element) is the further coordinate of each node, and the couple of the elements (N elements)
-the force along it. Each function takes the place of the one that its decorator names
-(`bladerub.contact.laws`).
+the force along it. Each function takes the place of the one of `contact.kernel` that its decorator names.
 """
 
 import math
@@ -50,9 +49,6 @@ class Linearisation(NamedTuple):
     couple: np.ndarray  # First moment of the force about the node, N elements
     first_moment: np.ndarray  # Of the stiffness about the node: force per tilt, and couple per approach
     second_moment: np.ndarray  # Couple per tilt
-
-
-# ---- the elements under the profile (`bladerub.contact.kernel.elements`)
 
 
 @in_place_of(elements.pose_of)
@@ -105,9 +101,6 @@ def linearise(element, stator, tip, state, position, rows, pose, fetch, lane, ze
     return Linearisation(pose, force, stiffness, valid, couple, first_moment, second_moment)
 
 
-# ---- the search for forces (`bladerub.contact.kernel.newton`)
-
-
 @in_place_of(newton.distance)
 def distance(tip, pose, other):
     """Add what the edge of the profile is apart by the tilt."""
@@ -133,9 +126,6 @@ def answer(stator, state, linear, pose):
     return linear.force + linear.stiffness * closer + linear.first_moment * turned
 
 
-# ---- the search node by node (`bladerub.contact.kernel.gauss_seidel`)
-
-
 @in_place_of(gauss_seidel.resistance)
 def resistance(stator, tip, state, j, position, approach, tilt, forces):
     """Enter the couple as well."""
@@ -143,9 +133,6 @@ def resistance(stator, tip, state, j, position, approach, tilt, forces):
     linear = gauss_seidel.node_linearisation(stator, tip, state, j, position, pose)
     write(forces, FURTHER + j, stator.normal_factor * linear.couple)
     return linear.force, linear.stiffness
-
-
-# ---- the ledger (`bladerub.contact.kernel.accounting`)
 
 
 @in_place_of(accounting.add_further_work)

@@ -28,7 +28,6 @@ _LAW = "bladerub.contact.law"
 _ALIKE = ("numerics.vectors", "numerics.memory", "contact.law", "contact.tip", "contact.gap")
 _ALIKE = tuple(f"bladerub.{name}" for name in (*_ALIKE, "contact.friction", "contact.kernel"))
 """Modules of which each variant has its own, and all that are in the last one."""
-
 _importing = threading.Lock()
 
 
@@ -62,7 +61,9 @@ class _Variant:
             importlib.import_module(needed)  # with all that it needs: what is imported below is the variant's
         usual = self._loaded(name)
         for module in usual:
-            _take_away(module, usual)
+            parent, _, child = module.rpartition(".")
+            del sys.modules[module]
+            delattr(sys.modules.get(parent, usual.get(parent)), child)  # else found there
         try:
             _put(self._modules)
             with self._named():
@@ -85,11 +86,9 @@ class _Variant:
     def _loaded(self, name: str) -> dict[str, ModuleType]:
         """Return what is imported of the modules that variants have, and of `name`."""
         inside = tuple(f"{module}." for module in _ALIKE)
-        return {
-            loaded: module
-            for loaded, module in sys.modules.items()
-            if loaded in (*_ALIKE, name, self.motion) or loaded.startswith(inside)
-        }
+        names = (*_ALIKE, name, self.motion)
+        modules = sys.modules.items()
+        return {loaded: module for loaded, module in modules if loaded in names or loaded.startswith(inside)}
 
     @contextmanager
     def _named(self) -> Iterator[None]:
@@ -100,12 +99,6 @@ class _Variant:
             yield
         finally:
             length.LANES, length.COORDINATES, length.INSTANCE = usual
-
-
-def _take_away(name: str, usual: dict[str, ModuleType]) -> None:
-    parent, _, child = name.rpartition(".")
-    del sys.modules[name]
-    delattr(sys.modules.get(parent, usual.get(parent)), child)  # else found there
 
 
 def _put(modules: dict[str, ModuleType]) -> None:

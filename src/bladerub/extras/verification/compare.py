@@ -16,11 +16,7 @@ if TYPE_CHECKING:
 
 READ = ["number", "value"]  # that a compared table must have; it may have ``unit`` and ``uncertainty``
 COLUMNS = ["table", "number", "reference", "value", "allowed", "unit", "agrees"]
-"""Columns of the comparison; ``allowed`` is the largest difference that is within the uncertainties."""
-
-COVERAGE = 2.0
-"""How many times their joint uncertainty two numbers may differ: 95 % of them, if the errors are normal."""
-
+COVERAGE = 2.0  # times the joint uncertainty that two numbers may differ: 95 % of them, if errors are normal
 _DIGITS = 1e-6  # relative; tables have seven digits
 
 
@@ -76,9 +72,9 @@ def compare(folder: str | Path, reference: str | Path) -> "pd.DataFrame":
     """Compare the tables of `folder` with those of `reference` that have the same names.
 
     Two numbers agree where they differ by no more than `COVERAGE` times the root of the sum of squares of
-    their uncertainties. A compared number without one counts as exact; ``value`` is NaN of one that the
-    table lacks. Raises ValueError if the folders have no table and number in common, or a number is none, is
-    there twice or has another unit; OSError if a table cannot be read or lacks a column.
+    their uncertainties, 0 where there is none; ``value`` is NaN of one that a table lacks. Raises ValueError
+    if the folders have no number in common, or one is none, is there twice or has another unit; OSError if a
+    table cannot be read or lacks a column.
     """
     import pandas as pd  # which commands that read no table do without
 

@@ -57,10 +57,7 @@ class LawReport:
 
 
 def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> LawReport:
-    """Press elements of `coatings`, which have a layer, by a law along random histories, of the same `seed`.
-
-    Elements that wear off begin unworn. What a law raises is a problem, not an error.
-    """
+    """Press unworn elements of layered `coatings` along random histories; what a law raises is a problem."""
     rng, log = np.random.default_rng(seed), LawReport()
     try:
         module = module_of(law)

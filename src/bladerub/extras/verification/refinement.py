@@ -6,6 +6,7 @@ its stiffness per area; the time step stays. What remains is how the bars resolv
 even places on a mesh that is finer along the chord.
 """
 
+import itertools
 import math
 import time
 from collections.abc import Callable, Mapping
@@ -32,10 +33,8 @@ REFINEMENTS = (1, 2, 4)  # how many times finer the bars are; 1 are the study's
 NODES = (8, 16, 24)  # numbers of interface nodes; 8 are the study's
 CHORDWISE = 24  # elements; 49 nodes along the camber line
 
-CASES = [
-    CoatingCase("2nd", *layer)
-    for layer in [(0.11, 0.5, 0.0), (1.1, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 0.5, 0.15), (20.0, 10.0, 0.0)]
-]
+_LAYERS = [(0.11, 0.5, 0.0), (1.1, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 0.5, 0.15), (20.0, 10.0, 0.0)]
+CASES = [CoatingCase("2nd", *layer) for layer in _LAYERS]
 """Coatings of the paper whose peaks are compared: those of Figs. 8, 9, 15 and 16, and the stiffest."""
 
 
@@ -56,27 +55,22 @@ def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
 
 def finer_bars(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
     """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with finer bars."""
-    models = {
-        config.contact.elements * times: Model(
-            blade, partial(_under_bars, times=times), partial(with_finer_bars, blade, times=times)
-        )
-        for times in REFINEMENTS
-    }
+    models = {}
+    for times in REFINEMENTS:
+        wear, change = partial(_under_bars, times=times), partial(with_finer_bars, blade, times=times)
+        models[config.contact.elements * times] = Model(blade, wear, change)
     return _table(compared("elements", models, config, peaks))
 
 
 def more_nodes(config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
-    """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with more interface nodes.
-
-    As `compared`; ``cpu_s`` are the seconds of the run at the study's speed of the peak.
-    """
+    """Find these peaks with more interface nodes; ``cpu_s`` is of the run at the study's speed of a peak."""
     blades = {n: blade_with(config, n) for n in NODES}
     models = {n: Model(blade, partial(_along_chord, blade)) for n, blade in blades.items()}
-    seconds = [
-        _seconds(blade, config, case, float(peak.f_peak))
-        for case, peak in listed(peaks)
-        for blade in blades.values()
-    ]
+    seconds = []
+    for (case, peak), blade in itertools.product(listed(peaks), blades.values()):
+        start = time.process_time()
+        simulate(blade, run_spec(config, case, float(peak.f_peak)))
+        seconds.append(time.process_time() - start)
     return _table(compared("interface_nodes", models, config, peaks).assign(cpu_s=seconds))
 
 
@@ -127,12 +121,10 @@ def _table(rows: pd.DataFrame) -> pd.DataFrame:
 def with_finer_bars(blade: ReducedBlade, spec: RunSpec, times: int) -> RunSpec:
     """Return the run with bars `times` finer under the same tip, at the same time step."""
     spec = fixed_steps(blade, spec)
-    return replace(
-        spec,
-        coating=replace(spec.coating, n_elements=spec.coating.n_elements * times),
-        tip=replace(spec.tip, half_width=spec.tip.half_width * times),
-        steps_per_element=math.ceil(spec.steps_per_element / times),
-    )
+    coating = replace(spec.coating, n_elements=spec.coating.n_elements * times)
+    tip = replace(spec.tip, half_width=spec.tip.half_width * times)
+    steps = math.ceil(spec.steps_per_element / times)
+    return replace(spec, coating=coating, tip=tip, steps_per_element=steps)
 
 
 def blade_with(config: Config, n: int) -> ReducedBlade:
@@ -150,9 +142,3 @@ def _under_bars(run: RunResult, times: int) -> np.ndarray:
 def _along_chord(blade: ReducedBlade, run: RunResult) -> np.ndarray:
     """Mean wear (N,) along the chord, m."""
     return np.average(run.wear, axis=0, weights=strip_width(blade))
-
-
-def _seconds(blade: ReducedBlade, config: Config, case: CoatingCase, f_omega: float) -> float:
-    start = time.process_time()
-    simulate(blade, run_spec(config, case, f_omega))
-    return time.process_time() - start

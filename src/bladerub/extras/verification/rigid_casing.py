@@ -52,7 +52,6 @@ ALTERNATIVES = (
     *(Alternative("moreau_jean_0", 8, modes) for modes in (10, 20, 40, 60)),
 )
 """What is tried at `PLAIN_SPEED` and at the peaks; `NEARBY` at the speeds next to them."""
-
 COLUMNS = [
     *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude", "amplitude_change"),
     *("largest_revolution", "median_revolution", "largest_displacement"),
@@ -61,10 +60,7 @@ COLUMNS = [
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def table(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
-    """Repeat runs of the study on the rigid casing: a row for each speed and alternative (``columns.csv``).
-
-    `peaks` is a table ``peaks.csv``, of which the peaks of the rigid casing are looked at.
-    """
+    """Repeat runs at the rigid casing's peaks of ``peaks.csv``: a row for each speed and alternative."""
     rows = []
     last = slice(-config.analysis.spectrum_revolutions, None)  # the revolutions of the study's spectra
     for f_omega, order, alternatives in _listed(config, peaks):

@@ -30,11 +30,10 @@ UNIFORM = (20, 1.2e-6)  # one step for all coatings: least number in an element,
 SAMPLE, SEED = 12, 11  # runs drawn for each Young modulus
 _QUANTILES = {"median": 0.5, "nine runs in ten": 0.9}  # that are drawn
 
-COLUMNS = [
+COLUMNS = [  # of ``steps.csv``; the tolerance of `UNIFORM` is empty
     *("casing", "E", "K", "theta", "law", "f_omega"),
     *("tolerance", "steps_per_element", "steps_per_revolution", "error", "sensitive", "energy_residual"),
 ]
-"""Columns of ``steps.csv``; the tolerance of `UNIFORM` is empty."""
 
 
 def draw(config: Config) -> list[StudyRun]:
@@ -55,7 +54,7 @@ def table(
 
     The error is the largest of the `differences` from a run of `REFINEMENT` times the steps of the smallest
     tolerance. A run is sensitive, whatever the tolerance, if neighbouring starts `explain` its errors at that
-    of the study. `report` is called with a line for each run.
+    of the study.
     """
     rows, runs = [], draw(config)
     for number, run in enumerate(runs, 1):
@@ -92,10 +91,7 @@ def _rows(blade: ReducedBlade, config: Config, run: StudyRun) -> Iterator[list[A
 
 @style.styled
 def draw_steps(table: pd.DataFrame) -> Figure:
-    """Draw the error of `table` over the steps of a revolution: a line joins tolerances of one Young modulus.
-
-    Runs that are chaotic are left out.
-    """
+    """Draw the error of `table` over the steps, but for chaotic runs; a line joins tolerances of one E."""
     calm = table[~table.sensitive.astype(bool)]
     figure = style.new_figure(style.PAGE, 0.5 * style.PAGE)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)

@@ -43,16 +43,14 @@ REFINEMENT = 4  # the finer step leaves 1/16 of an error of second order, 1/4 of
 NEIGHBOURS = (-1e-7, -5e-8, 5e-8, 1e-7)
 """Initial radial displacements of node 1 in neighbouring starts, m: far below the tolerance to which a blade
 tip is made (some 0.01 mm) and far above rounding."""
-
 DRAWS = {"all": [(1, 40), (2, 40), (3, 40)], "important": [(1, 100)]}
 """Seeds of the draws and numbers of runs, from all of the study and from those that claims rest on."""
-COLUMNS = [
+COLUMNS = [  # of ``accuracy.csv``
     *("drawn_from", "seed", "casing", "E", "K", "theta", "law", "f_omega", "status"),
     *(f"error_{measure}" for measure in Differences._fields),
     *(f"start_{measure}" for measure in Differences._fields),
     *("sensitive", "energy_residual", "speedup_at_equal_error", "cpu_s"),
 ]
-"""Columns of ``accuracy.csv``, described in ``columns.csv``."""
 
 
 class Solved(NamedTuple):
@@ -111,10 +109,7 @@ def verify_runs(
 
 
 def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRun:
-    """Find the error of one run.
-
-    Raises `ValueError` if the blade has no such speed, or the step is too long for the scheme.
-    """
+    """Find the error of one run; `ValueError` if the blade has no such speed, or the step is too long."""
     spec = run_spec(config, run.case, run.f_omega)
     passage = element_passage(blade, spec)
     solve = partial(_solve, blade, run.row)
@@ -135,6 +130,8 @@ def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRu
     measure = Differences._fields.index("wear_l2" if finer.blades[0].wear.any() else "peak")
     unbounded = "unbounded" in (outcome.blades[0].status, finer.blades[0].status)
     solved = {"study": outcome, "finer": finer, "paper": paper, "paper_finer": paper_finer}
+    paper_errors = (compare(one, finer)[measure] for one in (paper, paper_finer))
+    costs = outcome.seconds, *paper_errors, paper_finer.seconds
     return VerifiedRun(
         run=run,
         status="unbounded" if unbounded else "completed",
@@ -144,13 +141,7 @@ def verify_run(blade: ReducedBlade, config: Config, run: StudyRun) -> VerifiedRu
         spread=spread,
         energy_residual=outcome.energy_residual,
         seconds={name: run_solved.seconds for name, run_solved in solved.items()},
-        speedup=speedup_at_equal_error(
-            error[measure],
-            outcome.seconds,
-            compare(paper, finer)[measure],
-            compare(paper_finer, finer)[measure],
-            paper_finer.seconds,
-        ),
+        speedup=speedup_at_equal_error(error[measure], *costs),
     )
 
 
@@ -160,9 +151,8 @@ def speedup_at_equal_error(
     """Cost of the paper's scheme at the error of the study's run, over the cost of the study's run.
 
     All errors are differences from the study's scheme with finer steps. That of the paper's scheme is taken
-    as proportional to the step, through the one at the step `REFINEMENT` times finer; its step of equal error
-    is at most its coarser step, as stability allows no longer one. Its cost is proportional to 1 / step. None
-    if an error is zero or infinite, or that of the paper's scheme does not decrease with its step.
+    as proportional to the step, its cost to 1 / step; its step of equal error is at most its coarser step, as
+    stability allows no longer one. None if an error is zero or infinite, or does not decrease with its step.
     """
     errors = (error, paper_error, paper_finer_error)
     if min(errors) == 0 or max(errors) == math.inf or paper_finer_error >= paper_error:
@@ -190,11 +180,7 @@ def table(
     candidates: Mapping[str, Sequence[StudyRun]],
     report: Callable[[object], None] = lambda line: None,
 ) -> pd.DataFrame:
-    """Verify the runs of `DRAWS`; a row each, with `COLUMNS`.
-
-    `candidates` are the runs to draw from by the names there; of a study that has fewer all are taken.
-    `report` is called with a line for a log after each run.
-    """
+    """Verify the runs of `DRAWS`, or all `candidates` of a name if these are fewer; columns `COLUMNS`."""
     rows = []
     for name, draws in DRAWS.items():
         for seed, sample in draws:
@@ -210,11 +196,7 @@ def table(
 
 
 def summary(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
-    """Summarise the errors of one run or more, in plain values that JSON can hold; infinite ones are None.
-
-    The keys are those that docs/how-to/how_sure.md describes; ``speedup_at_equal_error`` is the median over
-    the runs that have one and are not sensitive, and of the runs ``beyond`` the worst comes first.
-    """
+    """Summarise errors in plain values, by keys of docs/how-to/how_sure.md; infinite ones are None."""
     errors = pd.DataFrame([run.error for run in verified], index=[run.run.name for run in verified])
     speedups = [run.speedup for run in verified if run.speedup is not None and not run.is_sensitive]
     beyond = sorted((run for run in verified if run.is_beyond), key=lambda run: -max(run.error))

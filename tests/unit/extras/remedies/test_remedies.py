@@ -12,7 +12,7 @@ from snakemake.scheduling.job_scheduler import JobRateLimiter
 from snakemake.settings.types import MaxJobsPerTimespan
 
 from bladerub.extras.remedies import snakemake as remedies
-from bladerub.extras.remedies.claims import claim
+from bladerub.extras.remedies.snakemake import claim
 from bladerub.io.errors import BadInput
 
 
@@ -97,7 +97,7 @@ def test_files_of_the_future_are_of_now(tmp_path, capsys):
 
 CLAIM = """
 import sys
-from bladerub.extras.remedies.claims import claim
+from bladerub.extras.remedies.snakemake import claim
 print(claim(sys.argv[1], ["a", "b"], ["c"]), flush=True)
 sys.stdin.read()
 """
