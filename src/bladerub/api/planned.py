@@ -101,9 +101,8 @@ class StudyCoating:
     def at(self, f_omega: Quantity, revolutions: int | None = None) -> StudyRun:
         """Describe the run at the speed `f_omega`, of so many revolutions.
 
-        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's
-        blade. A list of speeds, or of revolutions, gives a list of runs. Raises `InputError` if either is
-        not possible.
+        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's blade.
+        Lists of speeds or revolutions give a list of runs. Raises `InputError` if one is impossible.
         """
         plain = checked_number(self.config, "f_omega", f_omega)
         f1_hz = first_frequency(self.config) if isinstance(f_omega, str) else None

@@ -272,8 +272,7 @@ def read_run(path: str | Path) -> Run:
     """Read one run of a study, such as ``results/runs/2nd_E2_K0.5_theta0/0.1900.h5``, or of `Run.write`.
 
     The longer run is read with it, where there is one. That of a run of a study is the one that the manifest
-    of the coating lists or, before the job is done, one that begins as the run. A list of paths gives a list
-    of runs.
+    of the coating lists or, before the job is done, one that begins as the run. Lists of paths give lists.
 
     Raises
     ------

@@ -109,8 +109,7 @@ class BladeMesh:
     def from_shape(cls, shape, mesh: Mesh, n_interface: int = N_INTERFACE) -> "BladeMesh":
         """Mesh `shape`, whose ``points`` map the unit cube as those of `bladerub.blade.geometry.BladeShape`.
 
-        `mesh` are the element counts of the config. A ValueError says if the tip has too few for its nodes,
-        or the shape gives no such points.
+        `mesh` has the numbers of elements. ValueError if the tip has too few nodes, or the shape no points.
         """
         check_interface(mesh, n_interface)
         _check_points(shape.points, *np.meshgrid(*lattice(mesh), indexing="ij"))

@@ -102,8 +102,7 @@ class CoatingCase:
 def coating_cases(config: Config) -> list[CoatingCase]:
     """List every coating of the config, in its order.
 
-    Raises `ValueError`, naming the entry, if a coating is listed twice, or there are more than
-    `MAX_COATINGS`.
+    Raises `ValueError`, naming the entry, if one is listed twice, or there are more than `MAX_COATINGS`.
     """
     cases: dict[str, CoatingCase] = {}
     for index, entry in enumerate(config.coatings):
@@ -220,8 +219,7 @@ def run_spec(config: Config, case: CoatingCase, f_omega: float) -> RunSpec:
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
     The one place where values that the config gives in blade lengths, degrees or for the stand-in of the
-    paper's blade (``contact.scale``) become SI of this blade. Raises `KeyError` if it has no such casing,
-    `ValueError` as `casing_spec`.
+    paper's blade (``contact.scale``) become SI of this blade. `KeyError` if it has no such casing.
     """
     contact, solver, own = config.contact, config.solver, case.own
     casing, length = config.casings[case.casing], config.blade.length

@@ -93,8 +93,7 @@ def collect_listed(
     """Collect the runs of one coating in `folder` that these `rows` of its manifest list.
 
     ``analysis.lobe_prominence`` of the study `config` decides what counts as a lobe; `blade` is for its first
-    frequency. Raises `OSError`, naming the file, if a run is missing or damaged, or another than that of its
-    row.
+    frequency. Raises `OSError`, naming the file, if a run is missing, damaged, or not that of its row.
     """
     folder, rows = Path(folder), sorted(rows, key=lambda row: row.f_omega)
 

@@ -56,7 +56,7 @@ class Solver:
         `threads` runs may be computed at once, `report` is called with lines for a log, and `progress` with
         the number of revolutions done of a run, where they are counted. A run may be followed by itself for
         as many revolutions as ``longer(number, result)`` says: a solver that goes on with runs yields it
-        again, others begin none.
+        again.
         """
 
         def timed(number: int) -> tuple[list[RunResult], float]:

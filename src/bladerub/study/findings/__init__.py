@@ -1,8 +1,7 @@
 """The paper's claims, each measured by a function of its own on the tables and maps of the study.
 
-The claims C1 to C12 are numbered in the order of the paper; a letter stands for a separately testable
-part. A part that speaks of coatings or speeds outside the study has no row: the log names it and what is
-missing.
+The claims C1 to C12 are in the order of the paper, a letter stands for a separately testable part. One that
+speaks of coatings or speeds outside the study has no row: the log names it and what is missing.
 """
 
 import logging
