@@ -31,7 +31,6 @@ from bladerub.contact.modes import Modes
 
 FASTEST_PHASE = 2.0
 """Phase ω h up to which the exponential scheme resolves a mode: three steps a period draw no vibration."""
-
 STEADY = 0.25
 """Largest κ that the exponential scheme admits in lasting contact; it is stable below 1."""
 

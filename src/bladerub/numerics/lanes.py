@@ -14,7 +14,6 @@ COORDINATES = 2
 """Coordinates of each node in that module: two, and a third where the tip has a further motion."""
 INSTANCE = f"{USUAL}"
 """Name of what is compiled by it: of these vectors, and of what is not the paper's."""
-
 FEWEST_NODES, MOST_NODES = 4, 32
 """Interface nodes that a blade may have."""
 

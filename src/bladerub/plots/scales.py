@@ -13,7 +13,6 @@ from bladerub.study.summary import LARGE_DISPLACEMENT
 
 LARGE = f"displacement above {LARGE_DISPLACEMENT:.0%} of the blade's length"
 """What is said of the speeds that `Scales.is_large` finds."""
-
 ORDERS = range(1, 13)
 """Engine orders that are drawn and labelled."""
 

@@ -18,7 +18,6 @@ LAYER_NUMBERS = law.Layer.numbers if hasattr(law, "Layer") else 0
 """Numbers of each element that the law keeps to change its force between passages; 0 if it does not."""
 N_FORMS = 12
 """Coefficients of a free flight for each mode (`bladerub.contact.kernel.free_flight`)."""
-
 _MAY_BE_INFINITE = {"minimum_gap", "sideways"}
 """Fields that are compared only: where there is no casing, and of a tip that moves sideways alone."""
 

@@ -18,7 +18,6 @@ _REGISTERING = (moduli, tangential, wear_and_spectra)  # by their import
 
 CLAIMS: tuple[Claim, ...] = in_order()
 """Every measurable part of every claim, in the order of the table."""
-
 COLUMNS = ["id", *(field.name for field in fields(Finding))]
 """Columns of ``findings.csv``, see `Finding`."""
 
