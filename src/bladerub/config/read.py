@@ -16,8 +16,7 @@ from bladerub.io.folders import ROOT
 if TYPE_CHECKING:
     from bladerub.settings.study import Config
 
-SCHEMA = ROOT / "config" / "schema.json"
-"""What any part of bladerub reads in a config, for editors."""
+SCHEMA = ROOT / "config" / "schema.json"  # what any part of bladerub reads in a config, for editors
 
 
 class LaidOver(NamedTuple):

@@ -24,10 +24,8 @@ REVERSED, FALLBACK, UNCONVERGED, RETREAT = range(12, 16)
 """No energies. Single numbers: steps in which a node in contact did not slide with the rotation, steps whose
 forces were found node by node, steps whose forces did not converge. Of each node: how much less than the
 rotation it slid at most in a step, in elements."""
-COUPLE = 16
-"""Work of the couples on the blade, where the profile of the tip turns."""
-WORN = 17
-"""No energy: sum of what all elements under each node have worn, m."""
+COUPLE = 16  # work of the couples on the blade, where the profile of the tip turns
+WORN = 17  # no energy: sum of what all elements under each node have worn, m
 
 N_ENTRIES = 18
 

@@ -13,10 +13,8 @@ _CHECKOUT = PACKAGE.parents[1]
 
 ROOT = _CHECKOUT if (_CHECKOUT / "Snakefile").is_file() else PACKAGE / "repository"
 """Snakefile, rules, scripts and configs: the repository, or the copy of these that an installed wheel has."""
-BENCHMARKS = ROOT / "benchmarks"
-"""Reference numbers, a folder for each blade."""
-CONFIG = Path("config", "config.yaml")
-"""The config of a study, in its folder."""
+BENCHMARKS = ROOT / "benchmarks"  # reference numbers, a folder for each blade
+CONFIG = Path("config", "config.yaml")  # the config of a study, in its folder
 
 
 def study_folder() -> Path:

@@ -19,8 +19,7 @@ from bladerub.io import checksum, hdf5
 from bladerub.io.errors import is_refused
 from bladerub.io.provenance import PREFIX
 
-ARCHIVE = ".archive"
-"""Folder of the archived entries, each under its key; it may be deleted at any time."""
+ARCHIVE = ".archive"  # folder of the archived entries, each under its key; it may be deleted at any time
 
 
 def digest(determinants: Any) -> str:

@@ -20,8 +20,7 @@ from bladerub.settings.study import Config
 
 SPEED_DECIMALS = 6
 """Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
-SAME_SPEED = 1e-6
-"""Speeds closer than this are the same point of the grid."""
+SAME_SPEED = 1e-6  # speeds closer than this are the same point of the grid
 
 
 class Scale(NamedTuple):
@@ -32,10 +31,8 @@ class Scale(NamedTuple):
     time: float = 1.0
 
 
-UNSCALED = Scale()
-"""``contact.scale`` where the config has none: all its values are absolute."""
-MAX_COATINGS = 5000
-"""Coatings of a study; each is a job, and Snakemake plans no more than some ten thousand."""
+UNSCALED = Scale()  # ``contact.scale`` where the config has none: all its values are absolute
+MAX_COATINGS = 5000  # coatings of a study; each is a job, and Snakemake plans no more than some ten thousand
 OWN = {"damping_ratio": "xi", "layer_thickness": "h", "interference": "d"}
 """Keys that a coating may have instead of those of ``contact`` and ``casings``: their signs in its name."""
 

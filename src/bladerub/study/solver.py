@@ -21,8 +21,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 
-ROW = "rotor"
-"""Block of the config that describes a row of blades."""
+ROW = "rotor"  # block of the config that describes a row of blades
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")

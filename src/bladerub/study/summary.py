@@ -11,8 +11,7 @@ from bladerub.study.wear import dominant_harmonic, lobes
 
 LARGE_DISPLACEMENT = 0.05
 """Displacement over the length of the blade from which on small displacements are in doubt."""
-_LOWEST_ORDER = 0.5
-"""Below it a spectrum shows the slow drift of the mean, not vibration."""
+_LOWEST_ORDER = 0.5  # below it a spectrum shows the slow drift of the mean, not vibration
 
 
 def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, float]:

@@ -22,10 +22,8 @@ from bladerub.numerics.vectors import (
     where,
 )
 
-NO_CHANGE = 1e-12
-"""Change of depth below which the force of an element is taken as constant over a step, m."""
-NO_ADVANCE = 1e-9
-"""Least distance that the tip counts as passing in a step, in elements: it divides."""
+NO_CHANGE = 1e-12  # change of depth below which the force of an element is taken as constant over a step, m
+NO_ADVANCE = 1e-9  # least distance that the tip counts as passing in a step, in elements: it divides
 
 
 class Linearisation(NamedTuple):

@@ -27,8 +27,7 @@ from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, 
 
 NEGLIGIBLE = 1e-100
 """Modal coordinates below this are zero, m kg^1/2: numbers too small to be normal would slow the loop."""
-CLEANING_INTERVAL = 32
-"""Elements between two searches for negligible modal coordinates."""
+CLEANING_INTERVAL = 32  # elements between two searches for negligible modal coordinates
 
 
 class Progress(NamedTuple):

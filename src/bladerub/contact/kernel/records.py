@@ -16,8 +16,7 @@ from bladerub.numerics.vectors import LANES
 
 LAYER_NUMBERS = law.Layer.numbers if hasattr(law, "Layer") else 0
 """Numbers of each element that the law keeps to change its force between passages; 0 if it does not."""
-N_FORMS = 12
-"""Coefficients of a free flight for each mode (`bladerub.contact.kernel.free_flight`)."""
+N_FORMS = 12  # coefficients of a free flight for each mode (`bladerub.contact.kernel.free_flight`)
 _MAY_BE_INFINITE = {"minimum_gap", "sideways"}
 """Fields that are compared only: where there is no casing, and of a tip that moves sideways alone."""
 
@@ -90,8 +89,7 @@ class State(NamedTuple):
     scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
 
-COATING = ("wear", "strength", "taken", "layer")
-"""What of `State` belongs to the coating."""
+COATING = ("wear", "strength", "taken", "layer")  # what of `State` belongs to the coating
 
 
 def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:

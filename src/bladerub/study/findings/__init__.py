@@ -16,10 +16,8 @@ from bladerub.study.findings.evidence import Evidence
 
 _REGISTERING = (moduli, tangential, wear_and_spectra)  # by their import
 
-CLAIMS: tuple[Claim, ...] = in_order()
-"""Every measurable part of every claim, in the order of the table."""
-COLUMNS = ["id", *(field.name for field in fields(Finding))]
-"""Columns of ``findings.csv``, see `Finding`."""
+CLAIMS: tuple[Claim, ...] = in_order()  # every measurable part of every claim, in the order of the table
+COLUMNS = ["id", *(field.name for field in fields(Finding))]  # columns of ``findings.csv``, see `Finding`
 
 _log = logging.getLogger(__name__)
 
