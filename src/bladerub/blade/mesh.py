@@ -13,8 +13,7 @@ from bladerub.blade.model import N_INTERFACE
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Mesh
 
-LENGTH_TOLERANCE = 0.05
-"""Of ``blade.length`` to that of a blade from elsewhere, whose root need not be a cylinder."""
+LENGTH_TOLERANCE = 0.05  # of a blade from elsewhere to ``blade.length``: its root need not be a cylinder
 
 
 class FreeCoordinates:

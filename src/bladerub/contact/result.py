@@ -5,8 +5,7 @@ from typing import Annotated, get_type_hints
 
 import numpy as np
 
-UNBALANCED = 1e-3
-"""Residual of the energy ledger, over the work exchanged, above which a run is not to be trusted."""
+UNBALANCED = 1e-3  # residual of the ledger over the work exchanged above which a run is not to be trusted
 
 
 @dataclass(frozen=True)

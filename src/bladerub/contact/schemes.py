@@ -29,8 +29,7 @@ import numpy as np
 
 from bladerub.contact.modes import Modes
 
-FASTEST_PHASE = 2.0
-"""Phase ω h up to which the exponential scheme resolves a mode: three steps a period draw no vibration."""
+FASTEST_PHASE = 2.0  # phase ω h up to which a mode is resolved: three steps a period draw no vibration
 STEADY = 0.25  # largest κ that the exponential scheme admits in lasting contact; it is stable below 1
 
 ILL_CONDITIONED = 1e9

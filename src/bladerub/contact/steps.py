@@ -34,8 +34,7 @@ RATE = 0.18  # relative error by the passage of an element in one step, of a law
 BOUNCE = 13.0  # κ at which the bounce makes a relative error of 1, by its small values
 AVERAGED = 1.5  # bounces in the passage of an element from which on their errors average out
 RIGID = 3  # factor of the steps on the rigid casing
-STABLE_PART = 0.7
-"""Longest step of central differences, in largest stable steps ``2 / ω_max``: contact stiffens the blade."""
+STABLE_PART = 0.7  # longest step of central differences over ``2 / ω_max``: contact stiffens the blade
 
 
 def own_steps(passage: float, n_steps: int, longest: float) -> int:

@@ -8,8 +8,7 @@ coordinates of each node is such a constant, too.
 
 USUAL = 8  # doubles in a vector of the modules that are imported by name
 LANES = USUAL  # doubles in a vector of the module that is being imported
-COORDINATES = 2
-"""Coordinates of each node in that module: two, and a third where the tip has a further motion."""
+COORDINATES = 2  # of each node in that module: two, and a third where the tip has a further motion
 INSTANCE = f"{USUAL}"  # name of what is compiled by it: of these vectors, and of what is not the paper's
 FEWEST_NODES, MOST_NODES = 4, 32  # interface nodes that a blade may have
 

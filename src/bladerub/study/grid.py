@@ -18,8 +18,7 @@ from bladerub.settings.contact import AnyCasing
 from bladerub.settings.contact import Casing as Waves
 from bladerub.settings.study import Config
 
-SPEED_DECIMALS = 6
-"""Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
+SPEED_DECIMALS = 6  # of speeds, so that start + i step and a written value agree
 SAME_SPEED = 1e-6  # speeds closer than this are the same point of the grid
 
 

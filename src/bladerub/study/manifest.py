@@ -10,8 +10,7 @@ from bladerub.io import atomic, checksum
 from bladerub.io.checksum import file_checksum
 from bladerub.io.errors import DamagedFile
 
-CONFIRMATION = "confirmation"
-"""Folder of the longer runs, in that of a coating's runs; each has the name of the run that it repeats."""
+CONFIRMATION = "confirmation"  # folder of a coating's longer runs, each named like the run that it repeats
 
 
 class ListedFile(NamedTuple):

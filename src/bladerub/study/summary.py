@@ -9,8 +9,7 @@ from bladerub.study.growth import judge
 from bladerub.study.store import StoredRun
 from bladerub.study.wear import dominant_harmonic, lobes
 
-LARGE_DISPLACEMENT = 0.05
-"""Displacement over the length of the blade from which on small displacements are in doubt."""
+LARGE_DISPLACEMENT = 0.05  # over the length of the blade, from which on small displacements are in doubt
 _LOWEST_ORDER = 0.5  # below it a spectrum shows the slow drift of the mean, not vibration
 
 

@@ -17,8 +17,7 @@ if TYPE_CHECKING:  # a job opens its log first
     from bladerub.study.job import RunDone
     from bladerub.study.manifest import ManifestRow
 
-_ALLOCATIONS = 100_000
-"""Objects made, less those deleted, after which garbage is looked for; of Python they are 700."""
+_ALLOCATIONS = 100_000  # objects made, less those deleted, before garbage is looked for; of Python 700
 
 
 def log_to(path: str | Path) -> None:
