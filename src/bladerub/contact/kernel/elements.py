@@ -32,9 +32,7 @@ class Linearisation(NamedTuple):
     pose: np.ndarray  # How each profile is to the casing: approach of its node, m
     force: np.ndarray  # N
     stiffness: np.ndarray  # N/m
-    # Change of depth over which the force is linear, m: no element comes into contact, begins to flow or to
-    # unload
-    valid: np.ndarray
+    valid: np.ndarray  # Change of depth, m, in which none comes into contact, begins to flow or to unload
 
 
 @inlined
