@@ -93,10 +93,7 @@ class CoatingCase:
 
 
 def coating_cases(config: Config) -> list[CoatingCase]:
-    """List every coating of the config, in its order.
-
-    Raises `ValueError`, naming the entry, if one is listed twice, or there are more than `MAX_COATINGS`.
-    """
+    """List the coatings of the config in its order; ValueError names an entry that is twice, or too many."""
     cases: dict[str, CoatingCase] = {}
     for index, entry in enumerate(config.coatings):
         n_cases = len(cases) + math.prod(map(len, _values(entry).values()))
