@@ -11,7 +11,6 @@ from bladerub.settings.coatings import QUANTITIES
 from bladerub.settings.study import Config
 from bladerub.settings.units import pressure_in_words, speed_in_words
 from bladerub.study import grid
-from bladerub.study.grid import CoatingCase
 
 _MOST_REVOLUTIONS = 10_000
 
@@ -44,7 +43,7 @@ class StudyRun:
     """
 
     config: Config = field(repr=False)
-    case: CoatingCase
+    case: grid.CoatingCase
     spec: RunSpec = field(repr=False)
     f1_hz: float | None = field(default=None, repr=False, compare=False)
 
@@ -90,7 +89,7 @@ class StudyCoating:
     """
 
     config: Config = field(repr=False)
-    case: CoatingCase
+    case: grid.CoatingCase
 
     @property
     def name(self) -> str:
@@ -101,9 +100,8 @@ class StudyCoating:
     def at(self, f_omega: Quantity, revolutions: int | None = None) -> StudyRun:
         """Describe the run at the speed `f_omega`, of so many revolutions.
 
-        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's
-        blade. A list of speeds, or of revolutions, gives a list of runs. Raises `InputError` if either is
-        not possible.
+        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's blade.
+        Lists of speeds or revolutions give a list of runs. Raises `InputError` if one is impossible.
         """
         plain = checked_number(self.config, "f_omega", f_omega)
         f1_hz = first_frequency(self.config) if isinstance(f_omega, str) else None
@@ -122,7 +120,7 @@ def checked_number(config: Config, name: str, value: Quantity) -> float:
         raise InputError(name, value, str(error)) from None
 
 
-def _moduli(config: Config, case: CoatingCase) -> str:
+def _moduli(config: Config, case: grid.CoatingCase) -> str:
     """Write E and K of a coating in Pa; nothing of the rigid casing."""
     if case.is_rigid:
         return ""

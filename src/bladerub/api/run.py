@@ -15,7 +15,6 @@ from bladerub.api.study import settings_of
 from bladerub.contact.result import ENERGIES, Energy
 from bladerub.io import hdf5
 from bladerub.io.errors import package
-from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import PREFIX, provenance
 from bladerub.io.values import equal
 from bladerub.plots import titles
@@ -27,7 +26,6 @@ from bladerub.study.divergence import in_a_word
 from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.growth import Verdict, judge
 from bladerub.study.manifest import confirmation_path, lists_longer
-from bladerub.study.store import StoredRun
 from bladerub.study.summary import displacement_peak, summarise, worn_through
 
 if TYPE_CHECKING:
@@ -86,7 +84,7 @@ class Run(Shown):
     >>> figure = run.plot_spectrum("spectrum.png")
     """
 
-    stored: StoredRun = field(repr=False)
+    stored: store.StoredRun = field(repr=False)
     longer: "Run | None" = None
     stress: Any = None
     config: Config | None = field(default=None, repr=False)
@@ -272,8 +270,7 @@ def read_run(path: str | Path) -> Run:
     """Read one run of a study, such as ``results/runs/2nd_E2_K0.5_theta0/0.1900.h5``, or of `Run.write`.
 
     The longer run is read with it, where there is one. That of a run of a study is the one that the manifest
-    of the coating lists or, before the job is done, one that begins as the run. A list of paths gives a list
-    of runs.
+    of the coating lists or, before the job is done, one that begins as the run. Lists of paths give lists.
 
     Raises
     ------
@@ -293,7 +290,7 @@ def read_run(path: str | Path) -> Run:
     return run_of(runs)
 
 
-def _longer_beside(path: str | Path, run: StoredRun) -> StoredRun | None:
+def _longer_beside(path: str | Path, run: store.StoredRun) -> store.StoredRun | None:
     """Read the longer run that the manifest lists; before it lists the run, the one that begins as that."""
     is_listed, longer = lists_longer(path, run.attributes["run_key"]), confirmation_path(path)
     if is_listed or (is_listed is None and longer.exists()):
@@ -303,20 +300,20 @@ def _longer_beside(path: str | Path, run: StoredRun) -> StoredRun | None:
     return None
 
 
-def runs_of(run: Run, prefix: str = "") -> dict[str, StoredRun]:
+def runs_of(run: Run, prefix: str = "") -> dict[str, store.StoredRun]:
     """Return what is stored of a run and of its longer one, by what their names in a file begin with."""
     longer = {f"{prefix}{_LONGER}": run.longer.stored} if run.longer else {}
     return {prefix: run.stored} | longer
 
 
-def run_of(runs: Mapping[str, StoredRun], prefix: str = "") -> Run:
+def run_of(runs: Mapping[str, store.StoredRun], prefix: str = "") -> Run:
     """Return the run whose parts, as of `runs_of`, are among `runs`."""
     stored, longer, module = runs[prefix], runs.get(f"{prefix}{_LONGER}"), stress_measure()
     stress = module.RunStress.described(stored.attributes) if module else None
     return Run(stored, Run(longer) if longer else None, stress)
 
 
-def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> "xr.Dataset":
+def to_dataset(variables: Mapping[str, hdf5.Variable], attributes: Mapping[str, Any]) -> "xr.Dataset":
     """Return variables with their units as xarray opens them from a file that holds them."""
     arrays = {
         name: (entry.dims, np.asarray(entry.data), {"units": entry.units, "long_name": entry.long_name})

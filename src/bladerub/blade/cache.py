@@ -16,11 +16,7 @@ from bladerub.settings.blade import BladeSpec
 
 
 def kept_at(config: BladeSpec) -> Path:
-    """Return where the reduced blade of `config` is kept, whether it is there or not.
-
-    The folder is named after all that determines the blade: its config, its file, the sources that build it,
-    and the versions of the packages. Raises as `bladerub.blade.files.made_from`.
-    """
+    """Return where the blade of `config` is or would be kept, by all that determines it; as `made_from`."""
     return cache_folder() / "blades" / _name(config, made_from(config)) / "reduced_model.h5"
 
 

@@ -13,8 +13,7 @@ from bladerub.blade.model import N_INTERFACE
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Mesh
 
-LENGTH_TOLERANCE = 0.05
-"""Of ``blade.length`` to that of a blade from elsewhere, whose root need not be a cylinder."""
+LENGTH_TOLERANCE = 0.05  # of a blade from elsewhere to ``blade.length``: its root need not be a cylinder
 
 
 class FreeCoordinates:
@@ -109,8 +108,7 @@ class BladeMesh:
     def from_shape(cls, shape, mesh: Mesh, n_interface: int = N_INTERFACE) -> "BladeMesh":
         """Mesh `shape`, whose ``points`` map the unit cube as those of `bladerub.blade.geometry.BladeShape`.
 
-        `mesh` are the element counts of the config. A ValueError says if the tip has too few for its nodes,
-        or the shape gives no such points.
+        `mesh` has the numbers of elements. ValueError if the tip has too few nodes, or the shape no points.
         """
         check_interface(mesh, n_interface)
         _check_points(shape.points, *np.meshgrid(*lattice(mesh), indexing="ij"))

@@ -34,8 +34,7 @@ _MATRIX, _AT_NODES = ("coordinate", "coordinate_column"), ("node", "axis")
 class ReducedBlade:
     """Craig-Bampton model of a rotating blade with centrifugal stiffening, eqs. (2) to (6), of n coordinates.
 
-    The first 24 are the x, y, z displacements (m) of the interface nodes, node by node from the leading to
-    the trailing edge.
+    The first 24 are x, y, z displacements (m) of the interface nodes in turn, leading to trailing edge.
     """
 
     mass: Annotated[np.ndarray, _MATRIX, "kg", "reduced mass matrix"]

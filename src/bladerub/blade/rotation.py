@@ -92,8 +92,7 @@ def _newton(
 ) -> tuple[np.ndarray | None, int]:
     """Displacement in equilibrium, or None, and the iterations made.
 
-    A model with factors `at_rest` keeps its tangent, the first of which may be given, as long as the residual
-    decreases fast.
+    With factors `at_rest` a tangent, the first perhaps given, is kept while the residual decreases fast.
     """
     solve, before = None, np.inf
     for iteration in range(MAX_ITERATIONS + 1):

@@ -19,8 +19,12 @@ from bladerub import plugins
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Blade, BladeSpec
 
-FUNCTIONS = ("problems", "recipe", "files", "build")
-"""What the module of every source has, besides ``meshed`` or ``frequency_at_rest``."""
+FUNCTIONS = (
+    "problems",
+    "recipe",
+    "files",
+    "build",
+)  # what every source has
 
 
 def place(blade: Blade) -> str | None:

@@ -24,11 +24,7 @@ _POSITIVE = ("f1_hz", "f_omega_max", "length")
 
 
 def read_reduced_blade(path: str | Path) -> ReducedBlade:
-    """Read the blade that a study built, as `bladerub.blade.model.write_reduced_blade` wrote it.
-
-    Raises an OSError that names the file if it is missing, unreadable, not as it was written, or not a blade
-    that can be computed with.
-    """
+    """Read the blade that a study built; raises an OSError, with its name, if it cannot be computed with."""
     try:
         return _valid(path, *hdf5.read(path))
     except ValueError as error:

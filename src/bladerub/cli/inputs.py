@@ -155,8 +155,7 @@ def read_config(options: argparse.Namespace) -> "Config":
 def read_config_with_notes(options: argparse.Namespace) -> "tuple[Config, list[str]]":
     """Read and check the study's config with the files of ``--config`` laid over it.
 
-    Without ``--config``, what plugs in (``RECORDS``) lays over it what made the results. Returns the notes of
-    it as well.
+    Without ``--config``, what plugs in (``RECORDS``) lays over it what made the results. Returns notes, too.
     """
     base = base_config()
     records = [] if options.config else [*plugins.loaded("RECORDS").values()]

@@ -88,10 +88,9 @@ def compose(
 ) -> Located:
     """Read YAML files, each laid over those before it, and the values of the command line over them all.
 
-    `command_line` is what ``snakemake --config`` was given; below the top, Snakemake leaves numbers as text.
-    `source` is what messages call it.
-    Raises `ConfigError`, which names the file and the line, if one is missing, is not YAML, not a mapping or
-    beyond limits.
+    `command_line` is what ``snakemake --config`` was given, below the top with numbers as text, and `source`
+    what messages call it. Raises `ConfigError`, with file and line, for what is missing, no YAML, no mapping
+    or beyond limits.
     """
     config = reduce(Located.merged, map(read, paths), Located({}, UNKNOWN))
     return config.merged(Located.of(_from_text(command_line or {}), Location(source)))

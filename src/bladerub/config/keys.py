@@ -17,8 +17,7 @@ NUMBERS = ("a number", "a whole number")
 _FEWEST, _MOST_HZ = 10.0, 1000.0  # of a plain number that is a speed in rpm or Hz
 _WORDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "at most"}
 _DIGITS = 12  # of a value in units of a reference, which is itself known to fewer
-_CONSTRAINTS = (*_WORDS, "min_length", "max_length", "pattern", "form", "group")
-"""Attributes of the marks on a type that say what is allowed."""
+_CONSTRAINTS = (*_WORDS, "min_length", "max_length", "pattern", "form", "group")  # attributes of the marks
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,7 @@ from bladerub.settings import units
 from bladerub.settings.fields import OWN
 from bladerub.settings.study import whole
 
-NOT_KNOWN = "of this study, which is not known"
-"""Words of a problem that follows from another: a reference is unknown where its own keys are wrong."""
+NOT_KNOWN = "of this study, which is not known"  # in what follows from a problem of the keys of a reference
 _RELATIONS = {"at most": operator.le, "below": operator.lt, "at least": operator.ge, "above": operator.gt}
 
 

@@ -48,8 +48,7 @@ def number(name: str, value: Any, reference: units.Reference) -> Any:
     """Return `value` as a plain number if it is a quantity with a unit, anything else as it is.
 
     `name` is one of `QUANTITIES`, such as ``E``, or the path of a key, such as ``rotor.length_scatter``. A
-    speed is rounded as those of the grid. Raises ValueError if the unit is of another kind, and as the
-    `reference`.
+    speed is rounded as those of the grid. ValueError if the unit is of another kind, and as `reference`.
     """
     quantity = units.read(value)
     if quantity is None:
@@ -78,8 +77,7 @@ def converted(config: Located, kind: Any = None, study: Config | None = None) ->
     """Return a config with plain numbers instead of quantities, and why a reference is not known, if so.
 
     A quantity of another kind than it must be, or of a reference that is not known, stays as it is: its model
-    refuses it. A config has its own references; a plan, of the model `kind`, those of the checked `study`
-    that it is for.
+    refuses it. A config has its own references; a plan, of the model `kind`, those of its checked `study`.
     """
     reasons: list[str] = []
 

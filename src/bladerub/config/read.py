@@ -8,16 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bladerub import plugins
-from bladerub.config import files
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem, top_key
-from bladerub.config.files import Located
+from bladerub.config.files import Located, compose
 from bladerub.io.folders import ROOT
 
 if TYPE_CHECKING:
     from bladerub.settings.study import Config
 
-SCHEMA = ROOT / "config" / "schema.json"
-"""What any part of bladerub reads in a config, for editors."""
+SCHEMA = ROOT / "config" / "schema.json"  # what any part of bladerub reads in a config, for editors
 
 
 class LaidOver(NamedTuple):
@@ -106,7 +104,7 @@ def _composed(*paths: str | Path, **command_line: Any) -> Located:
     """Lay files and the command line over the defaults of what plugs in."""
     from bladerub.settings.study import defaults
 
-    return Located.of(defaults()).merged(files.compose(*paths, **command_line))
+    return Located.of(defaults()).merged(compose(*paths, **command_line))
 
 
 def _absent(config: Located) -> list[str]:

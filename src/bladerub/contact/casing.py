@@ -26,8 +26,7 @@ def shape(casing: Casing, angle: np.ndarray) -> np.ndarray:
 def gap(casing: Casing, clearance: float | np.ndarray, angle: np.ndarray) -> np.ndarray:
     """Gap g₀ of eq. (8) at `angle` (rad), ``c_j + (a − δ) − a s(φ)``, m.
 
-    It is negative where tip and coating overlap. `clearance` is that of the node, c_j (m), broadcast against
-    `angle`.
+    It is negative where tip and coating overlap. `clearance` is that of the node, c_j (m), and is broadcast.
     """
     offset = casing.amplitude - casing.interference
     return clearance + offset - casing.amplitude * shape(casing, angle)

@@ -18,20 +18,14 @@ RADIAL, TANGENTIAL, DAMPING, SLIDING, SHAPE, TORQUE, EXCHANGED, WEAR = range(8)
 """Sums of the loop: work of the radial and tangential forces on the blade, damping loss, energy taken by
 sliding, work of the casing shape, moment of the forces about the axis (N m, one entry a step), work on the
 blade and of the shape whatever its sign, energy taken by wear."""
-
 STORED, STORED_BEFORE, LAST_SHAPE, LAST_WEAR = range(8, 12)
 """Of the last step: energy in the coating at its end and start, and what it added to two of the sums."""
-
 REVERSED, FALLBACK, UNCONVERGED, RETREAT = range(12, 16)
 """No energies. Single numbers: steps in which a node in contact did not slide with the rotation, steps whose
 forces were found node by node, steps whose forces did not converge. Of each node: how much less than the
 rotation it slid at most in a step, in elements."""
-
-COUPLE = 16
-"""Work of the couples on the blade, where the profile of the tip turns."""
-
-WORN = 17
-"""No energy: sum of what all elements under each node have worn, m."""
+COUPLE = 16  # work of the couples on the blade, where the profile of the tip turns
+WORN = 17  # no energy: sum of what all elements under each node have worn, m
 
 N_ENTRIES = 18
 

@@ -26,8 +26,7 @@ def loading_cycle(
 ) -> LoadingCycle:
     """Compress an unworn element from one strain of `turning_points` to the next in `steps` each.
 
-    `rate` is that of the strain (1/s) and `rise` that of the temperature of the whole element (K), for the
-    laws in which they count.
+    `rate` is that of the strain (1/s), `rise` that of the temperature (K), for laws in which they count.
     """
     law = module_of(coating.element_law)
     branches = [np.linspace(start, end, steps + 1)[1:] for start, end in pairwise(turning_points)]

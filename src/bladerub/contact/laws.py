@@ -23,8 +23,7 @@ from bladerub.io.sources import digest_behind, digest_of
 from bladerub.numerics.lanes import USUAL
 from bladerub.settings.fields import Section
 
-NAMES = (PLASTIC.name, *sorted(plugins.offered("LAWS")))
-"""Laws that a config may name."""
+NAMES = (PLASTIC.name, *sorted(plugins.offered("LAWS")))  # laws that a config may name
 
 _MOTION = "tip_turns"  # of the block contact of the config
 

@@ -16,9 +16,7 @@ class Modes(NamedTuple):
     """Mass-normalised modes seen from the blade tip."""
 
     omega: np.ndarray  # (n,): Natural angular frequencies, ascending, rad/s
-    # (2 j, n): Displacement of the tip per unit of each mode: radial at its j nodes, then tangential,
-    # kg^-1/2; (3 j, n) with a further motion (`bladerub.contact.laws`)
-    tip: np.ndarray
+    tip: np.ndarray  # (2 j, n): Displacement of the tip per unit of each mode as of `at_tip`, kg^-1/2
     n_nodes: int  # j
 
 

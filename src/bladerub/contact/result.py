@@ -5,8 +5,7 @@ from typing import Annotated, get_type_hints
 
 import numpy as np
 
-UNBALANCED = 1e-3
-"""Residual of the energy ledger, over the work exchanged, above which a run is not to be trusted."""
+UNBALANCED = 1e-3  # residual of the ledger over the work exchanged above which a run is not to be trusted
 
 
 @dataclass(frozen=True)
@@ -64,9 +63,7 @@ class Outcome:
     angle: np.ndarray  # (N,), casing angle of the element centres, rad
     wear: np.ndarray  # (j, N), permanent shortening of each element under each node, m
     radial_displacement: np.ndarray  # (revolutions N,), of node 1, mean over the passage of each element, m
-    # (revolutions,), largest absolute one in each revolution, m; in free flight
-    # (`bladerub.contact.kernel.free_flight`) it is that of a parabola
-    revolution_peak: np.ndarray
+    revolution_peak: np.ndarray  # (revolutions,), largest absolute one, m; in free flight that of a parabola
     revolution_amplitude: np.ndarray  # (revolutions,), half its range in each whole one (no mean), m
     n_steps: int  # time steps, and those of them with contact
     n_contact_steps: int

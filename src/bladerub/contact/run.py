@@ -168,8 +168,7 @@ def integrate(
 ) -> None:
     """Integrate consecutive segments into `history`, until the last or a displacement exceeds the limit.
 
-    Each segment is asked for when those before are done; `progress` is called with the number of revolutions
-    done after each of them.
+    A segment is asked for when those before are done; `progress` is called with the revolutions done.
     """
     n_elements = history.displacement.shape[1]
     for segment in segments:

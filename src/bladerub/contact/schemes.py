@@ -29,38 +29,26 @@ import numpy as np
 
 from bladerub.contact.modes import Modes
 
-FASTEST_PHASE = 2.0
-"""Phase ω h up to which the exponential scheme resolves a mode: three steps a period draw no vibration."""
-
-STEADY = 0.25
-"""Largest κ that the exponential scheme admits in lasting contact; it is stable below 1."""
+FASTEST_PHASE = 2.0  # phase ω h up to which a mode is resolved: three steps a period draw no vibration
+STEADY = 0.25  # largest κ that the exponential scheme admits in lasting contact; it is stable below 1
 
 ILL_CONDITIONED = 1e9
 
 
 class Recurrence(NamedTuple):
-    """Coefficients of a scheme; n is the number of modes it resolves."""
+    """Coefficients of a scheme that resolves n modes; what is 2 j is 3 j with a further motion."""
 
     now: np.ndarray  # (n,): Coefficients of the present and of the previous modal coordinate
     before: np.ndarray
-    # (n,): Modal coordinate per unit of modal force, s²; a tip force acts on each mode by its
-    # displacement there
-    gain: np.ndarray
+    gain: np.ndarray  # (n,): Modal coordinate per unit of modal force, s²
     corrects: bool  # Whether the force acts in the step it is evaluated in (contract, 2)
-    # (n,): Kinetic energy per ``(q⁺ − q)²`` and energy lost to damping per ``(q⁺ − q⁻)²``, 1/s²
-    kinetic: np.ndarray
-    loss: np.ndarray
-    # (2 j, n): Displacement of the tip per unit of each resolved mode, kg^-1/2. With a further
-    # motion this and the matrices below have 3 j rows
-    tip: np.ndarray
+    kinetic: np.ndarray  # (n,): Kinetic energy per ``(q⁺ − q)²``, 1/s²
+    loss: np.ndarray  # (n,): Energy lost to damping per ``(q⁺ − q⁻)²``, 1/s²
+    tip: np.ndarray  # (2 j, n): Displacement of the tip per unit of each resolved mode, kg^-1/2
     omega: np.ndarray  # (n,): Natural angular frequencies of the resolved modes, rad/s
-    # (all modes,): Part of each mode of the blade that is resolved; the rest responds by its static
-    # displacement
-    share: np.ndarray
-    # (2 j, 2 j): Displacement of the tip per unit of force in the same step, as the law of contact sees it
-    # (contract, 3), and of the modes that are not resolved alone, m/N
-    compliance: np.ndarray
-    static_compliance: np.ndarray
+    share: np.ndarray  # (all modes,): Resolved part of each; the rest responds by its static displacement
+    compliance: np.ndarray  # (2 j, 2 j): Of the tip in the step of a force, as contact sees it (3), m/N
+    static_compliance: np.ndarray  # (2 j, 2 j): Of the modes that are not resolved alone, m/N
     time_step: float  # h, s
     n_nodes: int  # j, interface nodes
 
@@ -68,9 +56,7 @@ class Recurrence(NamedTuple):
 class Contact(NamedTuple):
     """What a scheme needs to know of the contact."""
 
-    # (j,): Largest stiffness under each node, N/m; infinite for the rigid casing. That against a
-    # further motion follows (2 j,)
-    stiffness: np.ndarray
+    stiffness: np.ndarray  # (j,): Largest under each node, N/m, or infinite; (2 j,) with a further motion
     radial: float  # Direction of the force on the blade
     tangential: float
 

@@ -37,8 +37,7 @@ class ElementLaw:
         return f"{self.name} ({values})" if values else self.name
 
 
-PLASTIC = ElementLaw()
-"""One-dimensional plasticity with linear hardening (Fig. 4)."""
+PLASTIC = ElementLaw()  # one-dimensional plasticity with linear hardening (Fig. 4)
 
 
 @dataclass(frozen=True)

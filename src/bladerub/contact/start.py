@@ -23,8 +23,7 @@ from bladerub.contact.strips import (
 )
 from bladerub.numerics.memory import aligned
 
-SEARCH_RANGE = 4
-"""Elements a node may move along the casing before the search for contact looks at it alone."""
+SEARCH_RANGE = 4  # elements a node may move along the casing before the search for contact looks at it alone
 
 _NEVER = 1.0  # gap of a lane without a node, m: nothing moves so far
 

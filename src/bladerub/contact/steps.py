@@ -29,23 +29,12 @@ from bladerub.contact.modes import Modes
 from bladerub.contact.schemes import Contact, normal_compliance
 from bladerub.contact.spec import RunSpec
 
-PASSAGE = 0.36
-"""Root of the relative error by the passage of an element in one step."""
-
-RATE = 0.18
-"""Relative error by the passage of an element in one step, of a law that depends on the rate."""
-
-BOUNCE = 13.0
-"""κ at which the bounce makes a relative error of 1, by its small values."""
-
-AVERAGED = 1.5
-"""Bounces in the passage of an element from which on their errors average out."""
-
-RIGID = 3
-"""Factor of the steps on the rigid casing."""
-
-STABLE_PART = 0.7
-"""Longest step of central differences, in largest stable steps ``2 / ω_max``: contact stiffens the blade."""
+PASSAGE = 0.36  # root of the relative error by the passage of an element in one step
+RATE = 0.18  # relative error by the passage of an element in one step, of a law that depends on the rate
+BOUNCE = 13.0  # κ at which the bounce makes a relative error of 1, by its small values
+AVERAGED = 1.5  # bounces in the passage of an element from which on their errors average out
+RIGID = 3  # factor of the steps on the rigid casing
+STABLE_PART = 0.7  # longest step of central differences over ``2 / ω_max``: contact stiffens the blade
 
 
 def own_steps(passage: float, n_steps: int, longest: float) -> int:

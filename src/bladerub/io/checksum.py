@@ -11,8 +11,7 @@ from pathlib import Path
 
 from bladerub.io.errors import DamagedFile
 
-BLANK = f"file checksum, sha256={64 * '0'}"
-"""What is written first in a file that is to carry its checksum."""
+BLANK = f"file checksum, sha256={64 * '0'}"  # what is written first in a file that is to carry its checksum
 
 _CARRIED = re.compile(rb"file checksum, sha256=([0-9a-f]{64})")
 _SIGNS = (b"file checksum", b"sha256=")  # no single bit spoils both

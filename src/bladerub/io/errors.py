@@ -24,8 +24,7 @@ class DamagedFile(OSError):
 def is_refused(error: Exception) -> bool:
     """Return whether the system refused to open or read a file, of whose content nothing is known then.
 
-    A lock, a permission, a stale handle, too many open files or a failing disk: all but that there is no such
-    file.
+    A lock, a permission, a stale handle, too many open files or a failing disk: all but that there is none.
     """
     absent = isinstance(error, FileNotFoundError | IsADirectoryError | NotADirectoryError)
     return isinstance(error, OSError) and bool(error.errno) and not absent

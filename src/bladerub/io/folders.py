@@ -13,20 +13,15 @@ _CHECKOUT = PACKAGE.parents[1]
 
 ROOT = _CHECKOUT if (_CHECKOUT / "Snakefile").is_file() else PACKAGE / "repository"
 """Snakefile, rules, scripts and configs: the repository, or the copy of these that an installed wheel has."""
-
-BENCHMARKS = ROOT / "benchmarks"
-"""Reference numbers, a folder for each blade."""
-
-CONFIG = Path("config", "config.yaml")
-"""The config of a study, in its folder."""
+BENCHMARKS = ROOT / "benchmarks"  # reference numbers, a folder for each blade
+CONFIG = Path("config", "config.yaml")  # the config of a study, in its folder
 
 
 def study_folder() -> Path:
     """Find the folder of the study at work, which the paths of its config are relative to.
 
-    It is the working directory or the closest folder above that has a `CONFIG` and a Snakefile that names
-    bladerub. If there is none, it is the repository that the package is installed from in place, or the
-    working directory itself.
+    It is the working directory or the closest folder above with a `CONFIG` and a Snakefile that names
+    bladerub; else the repository that the package is installed from in place, or the working directory.
     """
     working_folder = Path.cwd()
     for folder in (working_folder, *working_folder.parents):
@@ -51,9 +46,8 @@ def has_home() -> bool:
 def cache_folder() -> Path:
     """Return the folder of what is kept for this user beside studies, such as blades and machine code.
 
-    It is ``BLADERUB_CACHE``, or where the system wants it (``XDG_CACHE_HOME``), or, for a user without a
-    home, of this user alone among the temporary files (``TMPDIR``). Raises an `OSError` if others can write
-    that one.
+    It is ``BLADERUB_CACHE``, or where the system wants it (``XDG_CACHE_HOME``), or, without a home, of this
+    user alone among the temporary files (``TMPDIR``). Raises an `OSError` if others can write that one.
     """
     if path := os.environ.get("BLADERUB_CACHE"):
         return Path(path)
@@ -71,8 +65,7 @@ def cache_folder() -> Path:
 def provide_for_unknown_user() -> None:
     """Name the user for Snakemake, and a folder for Matplotlib, where the system knows neither.
 
-    So it is in a container under the number of another machine's user. Processes that are started inherit
-    both.
+    So it is in a container under the number of another machine's user. Processes started inherit both.
     """
     try:
         getpass.getuser()

@@ -15,8 +15,7 @@ from typing import IO
 def held(path: str | Path, on_wait: Callable[[], object]) -> Iterator[None]:
     """Hold the lock file `path`, which nobody else may hold meanwhile.
 
-    It and its folder are made if need be, and stay. `on_wait` is called once before waiting, if somebody else
-    holds the lock.
+    It and its folder are made if need be, and stay. `on_wait` is called once before waiting for the lock.
     """
     stream = attempt(path)
     if stream is None:

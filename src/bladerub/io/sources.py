@@ -10,8 +10,7 @@ from pathlib import Path
 
 from bladerub.io.folders import PACKAGE
 
-COMPUTING = {"blade", "contact", "study"}
-"""Subpackages whose code determines numbers."""
+COMPUTING = {"blade", "contact", "study"}  # subpackages whose code determines numbers
 
 
 def files_behind(*modules: str) -> list[str]:

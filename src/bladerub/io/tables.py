@@ -24,8 +24,7 @@ from bladerub.io.errors import BadInput, DamagedFile
 if TYPE_CHECKING:
     import pandas as pd
 
-DESCRIPTION = "-metadata.json"
-"""What follows the name of a table in that of its description, by the location that the W3C names first."""
+DESCRIPTION = "-metadata.json"  # behind the name of a table: its description, where the W3C looks first
 
 _HEAD = ["column", "datatype", "unit", "description"]
 _DATATYPES = ["number", "integer", "string", "boolean"]

@@ -11,8 +11,7 @@ import numpy as np
 class Comparable:
     """Base of a ``dataclass(eq=False)`` that equals another of its class if all fields are equal.
 
-    NaN equals NaN: it stands for the same missing number. Objects that can be equal without being the same
-    have no hash.
+    NaN equals NaN: it stands for the same missing number. What can be equal and not the same has no hash.
     """
 
     def __eq__(self, other: object) -> bool:

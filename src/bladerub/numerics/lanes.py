@@ -6,17 +6,11 @@ code. So the modules that have it are made once for each length that is asked fo
 coordinates of each node is such a constant, too.
 """
 
-USUAL = 8
-"""Doubles in a vector of the modules that are imported by name."""
-LANES = USUAL
-"""Doubles in a vector of the module that is being imported."""
-COORDINATES = 2
-"""Coordinates of each node in that module: two, and a third where the tip has a further motion."""
-INSTANCE = f"{USUAL}"
-"""Name of what is compiled by it: of these vectors, and of what is not the paper's."""
-
-FEWEST_NODES, MOST_NODES = 4, 32
-"""Interface nodes that a blade may have."""
+USUAL = 8  # doubles in a vector of the modules that are imported by name
+LANES = USUAL  # doubles in a vector of the module that is being imported
+COORDINATES = 2  # of each node in that module: two, and a third where the tip has a further motion
+INSTANCE = f"{USUAL}"  # name of what is compiled by it: of these vectors, and of what is not the paper's
+FEWEST_NODES, MOST_NODES = 4, 32  # interface nodes that a blade may have
 
 
 def lanes_for(n_nodes: int) -> int:

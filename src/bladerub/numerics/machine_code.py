@@ -24,7 +24,6 @@ if numba.config.DISABLE_JIT:
 _WITHIN = {"no_cfunc_wrapper": True}  # an entry for C; `numba.extending` makes none for Python
 INLINED = _WITHIN | {"forceinline": True}
 """Options of an overload that compiled code inlines; an entry that nobody calls would be compiled, too."""
-
 within = register_jitable(**_WITHIN)
 """Decorate a function that compiled code calls; for Python it stays as it is."""
 inlined = register_jitable(**INLINED)

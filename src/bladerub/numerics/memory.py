@@ -156,8 +156,7 @@ def add_products(context, sums, rows, a):
     return sums(sums, types.intp, vector), generate
 
 
-WIDTH = COORDINATES * LANES
-"""Coordinates of the tip: those below are of a vector for each, and stay in registers."""
+WIDTH = COORDINATES * LANES  # coordinates of the tip; what is below has a vector for each, in registers
 _several = types.UniTuple(vector, WIDTH)
 
 

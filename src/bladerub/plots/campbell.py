@@ -17,8 +17,7 @@ def campbell(table: pd.DataFrame, scales: Scales, ax: Axes | None = None) -> Fig
     """Draw Fig. 2: all modes (a) and the first of them, which the engine orders cross (b).
 
     The `table` is ``campbell.csv``: the frequencies of finite elements ``f_fe``, drawn dashed on top of those
-    of the reduced model ``f_rom``, Hz, NaN where unknown. `scales` have the first frequency. Axes that are
-    given hold (b).
+    of the reduced model ``f_rom``, Hz, NaN where unknown. `scales` have f1. Axes that are given hold (b).
     """
     frequencies = table.pivot(index="f_omega", columns="mode") / scales.f1_hz
     modes = frequencies.index.to_numpy(), *(frequencies[name].to_numpy() for name in ("f_fe", "f_rom"))

@@ -42,8 +42,7 @@ def with_gaps(f_omega: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
     """Bins around the simulated speeds (n,), with an empty row wherever speeds are missing.
 
     A bin reaches to the middle between neighbours, but no further than the usual speed step: a long stretch
-    without a simulation stays a gap. Returns the edges of the m ≥ n bins, and the rows of `values` (n, ...)
-    with rows of NaN in the gaps.
+    without a simulation stays a gap. Returns the edges of m ≥ n bins, and `values` (n, ...) with NaN in gaps.
     """
     f_omega, values = np.asarray(f_omega, dtype=float), np.asarray(values, dtype=float)
     middle = edges(f_omega)
@@ -110,8 +109,7 @@ def spectrum_map(
 ) -> Figure:
     """Draw Figs. 7, 8, 9, 15 and 16: f horizontally, f_Ω vertically, amplitude in colour.
 
-    `amplitude_range` are the ends of the logarithmic colour scale, m, `f_max` is that of the frequency axis,
-    normalised.
+    `amplitude_range` are the ends of the logarithmic colours, m, `f_max` that of the frequencies, normalised.
     """
     axes = ax or new_figure(PAGE, 0.62 * PAGE).add_subplot()
     _draw_spectrum(axes, coating, amplitude_range, f_max, scales)

@@ -34,8 +34,7 @@ _LOOKS = (
 def histories(paths: Iterable[str | Path], scales: Scales = UNKNOWN) -> tuple[pd.DataFrame, Figure]:
     """Draw Figs. 17 and 18 from the files of two runs that differ in theta.
 
-    The table is what is drawn: ``theta``, ``revolution`` and ``radial_displacement`` of node 1, m, which is
-    NaN after an early end.
+    The table is what is drawn: ``theta``, ``revolution`` and ``radial_displacement`` of node 1, m, or NaN.
     """
     runs = {run.attributes["theta"]: run for run in map(read_run, paths)}
     table = pd.concat(

@@ -13,9 +13,7 @@ from bladerub.study.summary import LARGE_DISPLACEMENT
 
 LARGE = f"displacement above {LARGE_DISPLACEMENT:.0%} of the blade's length"
 """What is said of the speeds that `Scales.is_large` finds."""
-
-ORDERS = range(1, 13)
-"""Engine orders that are drawn and labelled."""
+ORDERS = range(1, 13)  # engine orders that are drawn and labelled
 
 _OUTWARD = 36  # points from the axis whose numbers and name stand between
 _LINE = {"color": DARK, "linestyle": (0, (1, 1.5)), "linewidth": 1.1}

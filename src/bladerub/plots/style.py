@@ -16,10 +16,8 @@ from matplotlib.figure import Figure
 from bladerub.io import atomic
 from bladerub.io.provenance import software
 
-PAGE = 180 / 25.4
-"""Width of a full-page figure, inches (180 mm)."""
-COLUMN = 120 / 25.4
-"""Width of a figure that stands alone in a column, inches (120 mm)."""
+PAGE = 180 / 25.4  # width of a full-page figure, inches (180 mm)
+COLUMN = 120 / 25.4  # width of a figure that stands alone in a column, inches (120 mm)
 
 DARK = "#14213d"
 ORANGE = "#e08e0b"

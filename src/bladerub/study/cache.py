@@ -19,8 +19,7 @@ from bladerub.io import checksum, hdf5
 from bladerub.io.errors import is_refused
 from bladerub.io.provenance import PREFIX
 
-ARCHIVE = ".archive"
-"""Folder of the archived entries, each under its key; it may be deleted at any time."""
+ARCHIVE = ".archive"  # folder of the archived entries, each under its key; it may be deleted at any time
 
 
 def digest(determinants: Any) -> str:
@@ -29,11 +28,7 @@ def digest(determinants: Any) -> str:
 
 
 def blade_digest(path: str | Path) -> str:
-    """Digest the datasets and attributes of the reduced blade at `path`, not the bytes of the file.
-
-    A rebuild with the same outcome keeps the digest, wherever it comes from and whatever layout the file has.
-    Raises `OSError` if the file is missing or unreadable.
-    """
+    """Digest what a reduced blade holds, so that an equal rebuild keeps it; `OSError` if it is unreadable."""
     data, attributes = hdf5.read_any(path)
     content = hashlib.sha256()
     for name in sorted(data):

@@ -18,11 +18,8 @@ from bladerub.settings.contact import AnyCasing
 from bladerub.settings.contact import Casing as Waves
 from bladerub.settings.study import Config
 
-SPEED_DECIMALS = 6
-"""Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
-
-SAME_SPEED = 1e-6
-"""Speeds closer than this are the same point of the grid."""
+SPEED_DECIMALS = 6  # of speeds, so that start + i step and a written value agree
+SAME_SPEED = 1e-6  # speeds closer than this are the same point of the grid
 
 
 class Scale(NamedTuple):
@@ -33,12 +30,8 @@ class Scale(NamedTuple):
     time: float = 1.0
 
 
-UNSCALED = Scale()
-"""``contact.scale`` where the config has none: all its values are absolute."""
-
-MAX_COATINGS = 5000
-"""Coatings of a study; each is a job, and Snakemake plans no more than some ten thousand."""
-
+UNSCALED = Scale()  # ``contact.scale`` where the config has none: all its values are absolute
+MAX_COATINGS = 5000  # coatings of a study; each is a job, and Snakemake plans no more than some ten thousand
 OWN = {"damping_ratio": "xi", "layer_thickness": "h", "interference": "d"}
 """Keys that a coating may have instead of those of ``contact`` and ``casings``: their signs in its name."""
 
@@ -100,11 +93,7 @@ class CoatingCase:
 
 
 def coating_cases(config: Config) -> list[CoatingCase]:
-    """List every coating of the config, in its order.
-
-    Raises `ValueError`, naming the entry, if a coating is listed twice, or there are more than
-    `MAX_COATINGS`.
-    """
+    """List the coatings of the config in its order; ValueError names an entry that is twice, or too many."""
     cases: dict[str, CoatingCase] = {}
     for index, entry in enumerate(config.coatings):
         n_cases = len(cases) + math.prod(map(len, _values(entry).values()))
@@ -220,8 +209,7 @@ def run_spec(config: Config, case: CoatingCase, f_omega: float) -> RunSpec:
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
     The one place where values that the config gives in blade lengths, degrees or for the stand-in of the
-    paper's blade (``contact.scale``) become SI of this blade. Raises `KeyError` if it has no such casing,
-    `ValueError` as `casing_spec`.
+    paper's blade (``contact.scale``) become SI of this blade. `KeyError` if it has no such casing.
     """
     contact, solver, own = config.contact, config.solver, case.own
     casing, length = config.casings[case.casing], config.blade.length

@@ -7,11 +7,9 @@ from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeVar
 
 from bladerub.io import atomic, checksum
-from bladerub.io.checksum import file_checksum
 from bladerub.io.errors import DamagedFile
 
-CONFIRMATION = "confirmation"
-"""Folder of the longer runs, in that of a coating's runs; each has the name of the run that it repeats."""
+CONFIRMATION = "confirmation"  # folder of a coating's longer runs, each named like the run that it repeats
 
 
 class ListedFile(NamedTuple):
@@ -27,7 +25,7 @@ class ListedFile(NamedTuple):
 
     def is_damaged(self) -> bool:
         """Whether it is there and a single bit of it is not as it was written."""
-        return self.path.exists() and (self.is_lost() or file_checksum(self.path) != self.checksum)
+        return self.path.exists() and (self.is_lost() or checksum.file_checksum(self.path) != self.checksum)
 
 
 class Row(Protocol):

@@ -12,7 +12,6 @@ from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade, interface_node
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
-from bladerub.io.hdf5 import Variable
 from bladerub.io.values import Comparable
 from bladerub.settings.study import Config
 from bladerub.study.grid import CoatingCase
@@ -93,8 +92,7 @@ def collect_listed(
     """Collect the runs of one coating in `folder` that these `rows` of its manifest list.
 
     ``analysis.lobe_prominence`` of the study `config` decides what counts as a lobe; `blade` is for its first
-    frequency. Raises `OSError`, naming the file, if a run is missing or damaged, or another than that of its
-    row.
+    frequency. Raises `OSError`, naming the file, if a run is missing, damaged, or not that of its row.
     """
     folder, rows = Path(folder), sorted(rows, key=lambda row: row.f_omega)
 
@@ -153,10 +151,10 @@ def write_map(path: str | Path, coating: CoatingMap, origin: Mapping[str, str]) 
     hdf5.write(path, variables(coating), asdict(coating.case), origin)
 
 
-def variables(coating: CoatingMap) -> dict[str, Variable]:
+def variables(coating: CoatingMap) -> dict[str, hdf5.Variable]:
     """Give the arrays of a map their dimensions, units and meaning."""
     described = {
-        name: Variable(dims, getattr(coating, name), units, long_name)
+        name: hdf5.Variable(dims, getattr(coating, name), units, long_name)
         for name, (dims, units, long_name) in (DATASETS | DERIVED).items()
         if getattr(coating, name) is not None
     }
@@ -165,7 +163,7 @@ def variables(coating: CoatingMap) -> dict[str, Variable]:
     return described | revolutions(described)
 
 
-def revolutions(described: Mapping[str, Variable]) -> dict[str, Variable]:
+def revolutions(described: Mapping[str, hdf5.Variable]) -> dict[str, hdf5.Variable]:
     """Count the revolutions of the amplitudes in a map, and of those of the longer runs."""
     amplitudes = (described[name] for name in ("revolution_amplitude", "confirmation_amplitude"))
     sizes = {amplitude.dims[-1]: amplitude.data.shape[-1] for amplitude in amplitudes}

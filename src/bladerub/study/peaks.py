@@ -26,8 +26,7 @@ COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
 def peak_orders(config: Config, casing: str) -> list[int]:
     """Return the orders of the coatings of one casing: its ``peak_orders``, or ``analysis.peaks.orders``.
 
-    If those are the paper's, and the casing does not excite them within the speeds of the study, they are its
-    `excited_orders`.
+    They are its `excited_orders` if those are the paper's, and not all are excited at the study's speeds.
     """
     entry, orders = config.casings[casing], config.analysis.peaks.orders
     if entry.peak_orders:

@@ -44,12 +44,7 @@ class CoatingPlan:
 
 
 def planned_run(
-    config: Config,
-    spec: RunSpec,
-    file: str,
-    keep_history: bool,
-    row: Any = None,
-    follow: bool = True,
+    config: Config, spec: RunSpec, file: str, keep_history: bool, row: Any = None, follow: bool = True
 ) -> PlannedRun:
     """Plan one run (see `PlannedRun`); `config` is the study."""
     # the other keys of the analysis act on maps and tables

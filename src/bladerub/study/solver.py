@@ -21,8 +21,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config
 
-ROW = "rotor"
-"""Block of the config that describes a row of blades."""
+ROW = "rotor"  # block of the config that describes a row of blades
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -56,7 +55,7 @@ class Solver:
         `threads` runs may be computed at once, `report` is called with lines for a log, and `progress` with
         the number of revolutions done of a run, where they are counted. A run may be followed by itself for
         as many revolutions as ``longer(number, result)`` says: a solver that goes on with runs yields it
-        again, others begin none.
+        again.
         """
 
         def timed(number: int) -> tuple[list[RunResult], float]:

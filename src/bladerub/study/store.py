@@ -65,12 +65,7 @@ class StoredRun:
 
 
 def stored_run(
-    case: CoatingCase,
-    spec: RunSpec,
-    result: RunResult,
-    run_key: str,
-    analysis: Analysis,
-    keep_history: bool,
+    case: CoatingCase, spec: RunSpec, result: RunResult, run_key: str, analysis: Analysis, keep_history: bool
 ) -> StoredRun:
     """Take from the outcome of a run what is stored of it, `keep_history` the displacement at all times.
 

@@ -9,11 +9,8 @@ from bladerub.study.growth import judge
 from bladerub.study.store import StoredRun
 from bladerub.study.wear import dominant_harmonic, lobes
 
-LARGE_DISPLACEMENT = 0.05
-"""Displacement over the length of the blade from which on small displacements are in doubt."""
-
-_LOWEST_ORDER = 0.5
-"""Below it a spectrum shows the slow drift of the mean, not vibration."""
+LARGE_DISPLACEMENT = 0.05  # over the length of the blade, from which on small displacements are in doubt
+_LOWEST_ORDER = 0.5  # below it a spectrum shows the slow drift of the mean, not vibration
 
 
 def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, float]:
@@ -28,8 +25,7 @@ def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, floa
 def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
     """Find the largest displacement (m) over the last `revolutions`, or over as many before an early end.
 
-    `revolution_peak` (r,) is the largest in each revolution, m; NaN after an unbounded end. The largest of
-    none is NaN.
+    `revolution_peak` (r,) is the largest in each revolution, m; NaN after an unbounded end, as that of none.
     """
     record = revolution_peak[np.isfinite(revolution_peak)]
     return float(np.fmax.reduce(record[-revolutions:], initial=np.nan))
@@ -42,12 +38,11 @@ def summarise(run: StoredRun, analysis: Analysis, longer: StoredRun | None = Non
     ``spectrum_revolutions``, or over as many before an early end; None when the first step ended the run.
     ``engine_order`` is that of the largest spectral amplitude from order 0.5 up; None when the run ended
     within its first revolution or the blade never moved. ``max_wear`` (m), ``max_<name>`` of what else the
-    law leaves in the coating (`StoredRun.layer`), ``lobes``, ``wear_harmonic`` and its share
-    (`bladerub.study.wear`). ``growth_per_revolution`` with its confidence interval ``growth_low``,
-    ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``, ``divergent``, and
-    ``growth_revolutions``: how many these were found in, those of the `longer` run if there is one
-    (`bladerub.study.growth`). ``energy_residual`` (`bladerub.contact.result.Energy`), ``n_steps``,
-    ``status``.
+    law leaves in the coating (`StoredRun.layer`), ``lobes``, ``wear_harmonic`` and its share (`study.wear`).
+    ``growth_per_revolution`` with its interval ``growth_low``, ``growth_high`` (0.03 is 3 %; None of a run
+    too short), ``saturating``, ``divergent``, and ``growth_revolutions``: how many these were found in, those
+    of the `longer` run if there is one (`bladerub.study.growth`). ``energy_residual``
+    (`bladerub.contact.result.Energy`), ``n_steps``, ``status``.
     """
     data = run.data
     engine_order, height = spectral_peak(data["spectrum_order"], data["spectrum_amplitude"])

@@ -13,8 +13,7 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
 
     The worn depth `wear`, (j, n) or (n,), m, is averaged over the nodes and smoothed around the circle over
     `SMOOTHING_ANGLE`; `angle` (n,), rad, is even around it. A lobe is a maximum above the valleys on both
-    sides by at least `prominence` of the greatest smoothed depth. A casing that is worn evenly all around has
-    none.
+    sides by at least `prominence` of the greatest smoothed depth. Even wear all around has none.
     """
     width = max(1, round(SMOOTHING_ANGLE / (2 * np.pi / angle.size)))
     kernel = np.hanning(width + 2)[1:-1]  # without its two zeros

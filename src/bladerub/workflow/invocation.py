@@ -51,8 +51,7 @@ def read_config(workflow: Any, config: Mapping[str, Any]) -> tuple[Config, list[
 def rules_of_studies(repository: Path) -> tuple[list[Path], list[str]]:
     """Return the rules of the studies in ``studies``, and a line for each that is left out.
 
-    That is one whose rules, scripts or the modules that these import need a folder of `bladerub.extras` that
-    was deleted.
+    Those need, in rules, scripts or what these import, a folder of `bladerub.extras` that is not there.
     """
     present = {path.stem for path in plugins.EXTRAS.glob("*") if path.is_dir() or path.suffix == ".py"}
     complete, notes = [], []
@@ -142,8 +141,7 @@ def start(workflow: Any) -> None:
     """Begin to compute what was planned: `prepare` its results folder.
 
     Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
-    calls it from its own, since Snakemake ignores that of a module. What plugs in (``REMEDIES``,
-    ``RECORDS``) may raise `BadInput`.
+    calls it from its own, since Snakemake ignores that of a module. What plugs in may raise `BadInput`.
     """
     ((results, laid_over, begin),) = _planned
     for remedy in plugins.loaded("REMEDIES").values():

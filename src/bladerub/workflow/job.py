@@ -17,16 +17,15 @@ if TYPE_CHECKING:  # a job opens its log first
     from bladerub.study.job import RunDone
     from bladerub.study.manifest import ManifestRow
 
-_ALLOCATIONS = 100_000
-"""Objects made, less those deleted, after which garbage is looked for; of Python they are 700."""
+_ALLOCATIONS = 100_000  # objects made, less those deleted, before garbage is looked for; of Python 700
 
 
 def log_to(path: str | Path) -> None:
     """Send standard error to the log at `path`, each line as it comes.
 
     The error of a file or input is then reported in one line, in the log and on the former standard error, so
-    that it is seen even if the log is on a full disk. The traceback of any other goes to the log, its last
-    line to both.
+    that it is seen even if the log is on a full disk. Of others the log has the traceback, both the last
+    line.
     """
     collect_seldom()
     sys.stderr = open(path, "w", buffering=1, encoding="utf-8")  # noqa: SIM115 (a traceback must reach it)
@@ -36,8 +35,7 @@ def log_to(path: str | Path) -> None:
 def collect_seldom() -> None:
     """Look for garbage more seldom, and not at the end of this process, which does one thing and ends.
 
-    Modules stay to the end: to go through all of them again and again takes a quarter of the time of a job
-    that draws a figure.
+    Modules stay to the end: to go through them again and again takes a quarter of a job that draws a figure.
     """
     gc.set_threshold(_ALLOCATIONS)
     atexit.register(gc.freeze)

@@ -22,10 +22,8 @@ from bladerub.numerics.vectors import (
     where,
 )
 
-NO_CHANGE = 1e-12
-"""Change of depth below which the force of an element is taken as constant over a step, m."""
-NO_ADVANCE = 1e-9
-"""Least distance that the tip counts as passing in a step, in elements: it divides."""
+NO_CHANGE = 1e-12  # change of depth below which the force of an element is taken as constant over a step, m
+NO_ADVANCE = 1e-9  # least distance that the tip counts as passing in a step, in elements: it divides
 
 
 class Linearisation(NamedTuple):
@@ -34,9 +32,7 @@ class Linearisation(NamedTuple):
     pose: np.ndarray  # How each profile is to the casing: approach of its node, m
     force: np.ndarray  # N
     stiffness: np.ndarray  # N/m
-    # Change of depth over which the force is linear, m: no element comes into contact, begins to flow or to
-    # unload
-    valid: np.ndarray
+    valid: np.ndarray  # Change of depth, m, in which none comes into contact, begins to flow or to unload
 
 
 @inlined

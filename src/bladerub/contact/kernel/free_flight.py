@@ -15,8 +15,7 @@ from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import aligned, load, no_sums, store
 from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
 
-MOST_STEPS = 24
-"""Most time steps at once: more reach further, and so fit between two contacts less often."""
+MOST_STEPS = 24  # most time steps at once: more reach further, and so fit between two contacts less often
 
 (
     INCREMENT_Q,

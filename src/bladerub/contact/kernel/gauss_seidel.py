@@ -19,8 +19,7 @@ from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import WIDTH, add_to, address_of, load, read, read_fields, store, write
 from bladerub.numerics.vectors import LANES
 
-NODE_TOLERANCE = 1e-12
-"""Error of a node's approach at which its own force has converged, m."""
+NODE_TOLERANCE = 1e-12  # error of a node's approach at which its own force has converged, m
 MAX_NODE_ITERATIONS = 40
 MAX_SWEEPS = 200
 

@@ -25,10 +25,8 @@ from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, where
 
-NEGLIGIBLE = 1e-100
-"""Modal coordinates below this are zero, m kg^1/2: numbers too small to be normal would slow the loop."""
-CLEANING_INTERVAL = 32
-"""Elements between two searches for negligible modal coordinates."""
+NEGLIGIBLE = 1e-100  # m kg^1/2, modal coordinates below are zero: they slow the loop, no normal numbers
+CLEANING_INTERVAL = 32  # elements between two searches for negligible modal coordinates
 
 
 class Progress(NamedTuple):

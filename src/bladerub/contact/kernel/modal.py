@@ -29,24 +29,18 @@ FURTHER, APPROACH = 2 * LANES, 3 * LANES
 
 
 class Modal(NamedTuple):
-    """A `Recurrence` as the time loop reads it: modes padded with zeros to whole vectors."""
+    """A `Recurrence` as the loop reads it, modes in whole vectors; 16 is 24 with a further motion."""
 
     n: int  # Number of modes, a multiple of 8
     now: np.ndarray  # (n,): Coefficients of the recurrence
     before: np.ndarray
     loss: np.ndarray
-    # (n / 8, 16, 8): Displacement of the tip per unit of each mode, a block for each vector of modes;
-    # (n / 8, 24, 8) with a further motion
-    tip: np.ndarray
+    tip: np.ndarray  # (n / 8, 16, 8): Displacement of the tip per unit of each mode, by vectors of modes
     gain: np.ndarray  # (n,): Modal coordinates per unit of modal force
-    # (16, 16): Displacement of the tip in the step of each force itself, m/N; (24, 24) with a further motion
-    compliance: np.ndarray
+    compliance: np.ndarray  # (16, 16): Displacement of the tip in the step of each force itself, m/N
     corrects: bool  # Whether forces act in the step they are evaluated in
-    # (16, 16) or (24, 24): Displacement of the tip in a step, as `bladerub.contact.friction` counts it, per
-    # unit of each force of the step, by the modes that the scheme resolves, m/N
-    mobility: np.ndarray
-    # (8,): The most that tangential forces of 1 N on all nodes take from the sliding distance of each, m
-    stopping: np.ndarray
+    mobility: np.ndarray  # (16, 16): That by the resolved modes, as `contact.friction` counts it, m/N
+    stopping: np.ndarray  # (8,): Most that friction of 1 N on all nodes takes from the sliding of each, m
 
 
 def pack(rule: Recurrence) -> Modal:

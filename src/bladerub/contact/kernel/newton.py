@@ -23,12 +23,9 @@ from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import add_to_number, clear, load, load_fields, store, store_fields
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast
 
-TOLERANCE = 1e-11
-"""Residual of any node's approach at which the contact forces have converged, m."""
-STRAIGHT = 1e-8
-"""Displacement along the casing over which normal and rows of elements are kept, m."""
-MAX_ITERATIONS = 8
-"""Newton steps before the forces are sought node by node."""
+TOLERANCE = 1e-11  # residual of any node's approach at which the contact forces have converged, m
+STRAIGHT = 1e-8  # displacement along the casing over which normal and rows of elements are kept, m
+MAX_ITERATIONS = 8  # Newton steps before the forces are sought node by node
 
 
 class Geometry(NamedTuple):

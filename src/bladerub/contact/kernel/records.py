@@ -16,9 +16,7 @@ from bladerub.numerics.vectors import LANES
 
 LAYER_NUMBERS = law.Layer.numbers if hasattr(law, "Layer") else 0
 """Numbers of each element that the law keeps to change its force between passages; 0 if it does not."""
-N_FORMS = 12
-"""Coefficients of a free flight for each mode (`bladerub.contact.kernel.free_flight`)."""
-
+N_FORMS = 12  # coefficients of a free flight for each mode (`bladerub.contact.kernel.free_flight`)
 _MAY_BE_INFINITE = {"minimum_gap", "sideways"}
 """Fields that are compared only: where there is no casing, and of a tip that moves sideways alone."""
 
@@ -26,32 +24,24 @@ _MAY_BE_INFINITE = {"minimum_gap", "sideways"}
 class Stator(NamedTuple):
     """Coating and casing as the blade tip meets them, in rows of elements."""
 
-    # (N, 8): Distance g₀ from the resting tip to the original surface of each element, eq. (8), m
-    initial_gap: np.ndarray
+    initial_gap: np.ndarray  # (N, 8): Distance g₀ from the resting tip to each unworn element, eq. (8), m
     # (N,): By elements passed since the start of the revolution: the smallest of all gaps that any node
     # may meet then, if none moves further than `Tip.search_range` along the casing, m
     minimum_gap: np.ndarray
-    # (5, 8): `bladerub.contact.law.Element` of one element under each node, a row for each parameter
-    law: np.ndarray
+    law: np.ndarray  # (5, 8): `bladerub.contact.law.Element` of an element under each node, a row a parameter
     n_elements: int  # N
     is_rigid: bool  # Whether the tip meets the casing itself instead of elements
     normal_factor: float  # −cos θ and −sin θ: direction of the force on the blade
     tangential_factor: float
-    # (8,): Retreat of each node per unit of its own contact force in that direction, as the law of
-    # contact sees it, m/N
-    self_compliance: np.ndarray
-    # Whether the tangential part of the force follows the sliding of the node by Coulomb's law
-    coulomb: bool = False
-    # (8,): The same of a further coordinate per unit of its own force, where there is one
-    further_compliance: np.ndarray = np.empty(0)
+    self_compliance: np.ndarray  # (8,): Retreat of each node per unit of its own force in that direction, m/N
+    coulomb: bool = False  # Whether the tangential force follows the sliding of the node by Coulomb's law
+    further_compliance: np.ndarray = np.empty(0)  # (8,): The same of a further coordinate, if there is one
 
 
 class Tip(NamedTuple):
     """Where the interface nodes are, in element widths, and the profile they carry."""
 
-    # (8,): Position of each node at the start of a revolution, in rows: within [0, 1), and how far the blade
-    # is ahead (`bladerub.contact.start.Seat`)
-    start: np.ndarray
+    start: np.ndarray  # (8,): Row of each node at the start of a revolution, in [0, 1) but for `Seat.ahead`
     per_metre: np.ndarray  # (8,): Elements per metre of tangential displacement
     radius: np.ndarray  # (8,): Radius of curvature of the path of each node along the casing, m
     lever: np.ndarray  # (8,): Distance of each node from the axis of rotation, m
@@ -64,24 +54,14 @@ class Tip(NamedTuple):
 class State(NamedTuple):
     """All that changes during a run."""
 
-    # (3, n): Modal coordinates now, one and two steps before, padded with zeros to whole vectors
-    q: np.ndarray
-    # (3, 32): Radial and tangential displacement of the tip at the same times, a further coordinate of its
-    # nodes, and their approach (m)
-    u: np.ndarray
-    # (2, 24): Contact forces on the blade now and one step before, radial and tangential (N), and along the
-    # further coordinates
-    force: np.ndarray
-    # (2, 8): Of each node at the same times: size of the contact force (N), its moment about the axis (N
-    # m), and its tangential factor, that of the stator or what friction mobilises of it
-    normal_force: np.ndarray
-    moment: np.ndarray
-    tangential_factor: np.ndarray
-    # (24,): Coordinates of the tip by the forces of the last step in that step: where the search for forces
-    # begins
-    response: np.ndarray
-    # (32,): Sliding of the tip without the forces of this step as in `u`, but for the angle of rotation
-    free_sliding: np.ndarray
+    q: np.ndarray  # (3, n): Modal coordinates now, one and two steps before, in whole vectors
+    u: np.ndarray  # (3, 32): Displacement of the tip then: radial, tangential, further; and its approach, m
+    force: np.ndarray  # (2, 24): Contact forces now and a step before: radial, tangential (N), further
+    normal_force: np.ndarray  # (2, 8): Size of the contact force of each node at the same times, N
+    moment: np.ndarray  # (2, 8): Its moment about the axis, N m
+    tangential_factor: np.ndarray  # (2, 8): That of the stator, or what friction mobilises of it
+    response: np.ndarray  # (24,): Coordinates of the tip by the last forces: where their search begins
+    free_sliding: np.ndarray  # (32,): Sliding without the forces of this step, as `u`; the rotation last
     wear: np.ndarray  # (N, 8): Permanent shortening of the elements, in the rows of `Stator`, m
     # Where the law has a layer, which changes between passages (`bladerub.contact.laws`), else without rows:
     strength: np.ndarray  # (N, 8): Forces of the elements over those by the law alone
@@ -91,8 +71,7 @@ class State(NamedTuple):
     scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
 
-COATING = ("wear", "strength", "taken", "layer")
-"""What of `State` belongs to the coating."""
+COATING = ("wear", "strength", "taken", "layer")  # what of `State` belongs to the coating
 
 
 def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:

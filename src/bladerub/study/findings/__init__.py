@@ -1,8 +1,7 @@
 """The paper's claims, each measured by a function of its own on the tables and maps of the study.
 
-The claims C1 to C12 are numbered in the order of the paper; a letter stands for a separately testable
-part. A part that speaks of coatings or speeds outside the study has no row: the log names it and what is
-missing.
+The claims C1 to C12 are in the order of the paper, a letter stands for a separately testable part. One that
+speaks of coatings or speeds outside the study has no row: the log names it and what is missing.
 """
 
 import logging
@@ -17,11 +16,8 @@ from bladerub.study.findings.evidence import Evidence
 
 _REGISTERING = (moduli, tangential, wear_and_spectra)  # by their import
 
-CLAIMS: tuple[Claim, ...] = in_order()
-"""Every measurable part of every claim, in the order of the table."""
-
-COLUMNS = ["id", *(field.name for field in fields(Finding))]
-"""Columns of ``findings.csv``, see `Finding`."""
+CLAIMS: tuple[Claim, ...] = in_order()  # every measurable part of every claim, in the order of the table
+COLUMNS = ["id", *(field.name for field in fields(Finding))]  # columns of ``findings.csv``, see `Finding`
 
 _log = logging.getLogger(__name__)
 

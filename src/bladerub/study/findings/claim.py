@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 YES, PARTLY, NO = "yes", "partly", "no"
-SCORE = {YES: 1.0, PARTLY: 0.5, NO: 0.0}
-"""A verdict as a number."""
+SCORE = {YES: 1.0, PARTLY: 0.5, NO: 0.0}  # a verdict as a number
 
 
 @dataclass(frozen=True)
@@ -40,8 +39,7 @@ class Claim(NamedTuple):
     measure: Callable[[Any], Finding]
 
 
-REGISTERED: dict[str, Claim] = {}
-"""The claims by id, in the order of their registration."""
+REGISTERED: dict[str, Claim] = {}  # the claims by id, in the order of their registration
 
 
 def claim(id_: str, statement: str, *arguments: Any) -> Callable[[Callable], Callable]:

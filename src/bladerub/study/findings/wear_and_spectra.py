@@ -113,8 +113,7 @@ def _nearest(text: str, paper: float, maxima: np.ndarray) -> Finding:
 def soft_peak(evidence: Evidence, order: int, paper: float) -> Finding:
     """Speed of the peak.
 
-    The paper's sentence has 0.21 with eo(4) and 0.31 with eo(6); they are swapped, since 6 × 0.21 = 1.26 and
-    4 × 0.31 = 1.24 both lie on C1.
+    The paper has 0.21 with eo(4) and 0.31 with eo(6), swapped: 6 × 0.21 = 1.26 and 4 × 0.31 = 1.24 are on C1.
     """
     measured = evidence.peak(SOFT, order, "f_peak")
     text = f"E = 0.11: eo({order}) peaks near f_omega = {paper:g} (Fig. 8)"
