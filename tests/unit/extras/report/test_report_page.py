@@ -11,7 +11,6 @@ from study_fixtures import changed
 
 from bladerub import plugins
 from bladerub.cli import inputs, main
-from bladerub.extras.report import words
 from bladerub.io import hdf5, tables
 from bladerub.io.provenance import provenance
 from bladerub.study import divergence, peak_table
@@ -122,11 +121,3 @@ def test_coatings_are_chosen_by_name_and_a_study_that_is_not_finished_is_refused
     code, output = report("--json")
     assert (code, output.err.count("\n")) == (2, 1)
     assert "results/tables/peaks.csv is missing" in output.err
-
-
-def test_ranges_are_those_of_neighbours():
-    speeds = np.arange(10) * 100.0
-    mask = np.isin(np.arange(10), [0, 1, 4, 6, 7, 8])
-    assert words.ranges(mask, speeds) == "0 to 100, 400, 600 to 800"
-    assert words.ranges(mask, speeds, 1) == "600 to 800 and 2 more within 0 to 800"
-    assert words.ranges(mask & False, speeds) == words.NONE
