@@ -166,17 +166,11 @@ def test_the_window_is_wide_enough_other_sizes_have_the_same_program_and_what_ca
     assert source_for(half_width=1.3) == same
     assert source_for(half_width=1.2, n_elements=1500, revolutions=3) == same
     assert source_for(half_width=2.6) != same
-    for values, reason in (
-        ({"E": math.inf, "K": math.inf}, "rigid casing"),
-        ({"law": "coulomb"}, "Coulomb"),
-        ({"scheme": "central_differences", "max_time_step": 2e-6}, "central_differences corrects"),
-        ({"element_law": described_law("thermal", LAYER)}, "thermal conducts heat"),
-        ({}, ""),
-    ):
+    refused = [{"E": math.inf, "K": math.inf}, {"law": "coulomb"}, {"scheme": "central_differences"}]
+    refused[-1]["max_time_step"] = 2e-6
+    for values in (*refused, {"element_law": described_law("thermal", LAYER)}, {}):
         changed = change(spec, **values)
-        told = batch.refusal(changed, set_up(blade, changed)[1])
-        assert reason in told
-        assert bool(told) == bool(values)
+        assert bool(batch.refusal(changed, set_up(blade, changed)[1])) == bool(values)
 
 
 WRAPPED = """
