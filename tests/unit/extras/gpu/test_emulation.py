@@ -142,12 +142,6 @@ def test_runs_of_several_sizes_share_a_kernel(cupy, blade, spec, change):
     assert Kernel.grids == [(3,), (1,)]
 
 
-def test_without_a_gpu_it_is_said_what_to_take(cupy):
-    cupy.cuda.runtime.getDeviceCount.side_effect = RuntimeError("no driver")
-    with pytest.raises(device.NoGpuError, match=r"was found \(no driver\): take solver.device"):
-        device.connect()
-
-
 def test_the_window_is_wide_enough_other_sizes_have_the_same_program_and_what_can_not_be_done_is_said(
     blade, spec, change
 ):
@@ -234,4 +228,4 @@ def test_what_a_gpu_is_not_given_is_named():
         with pytest.raises(ValueError, match=named):
             formulas.of_law(module, source)
     elements = inspect.getsource(__import__("bladerub.contact.kernel.elements", fromlist=["x"]))
-    assert {name for name in dir(plastic) if f"law.{name}(" in elements} <= set(formulas.LAW)
+    assert {name for name in dir(plastic) if f"law.{name}(" in elements} == set(formulas.LAW)
