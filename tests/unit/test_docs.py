@@ -49,6 +49,7 @@ def has_heading(page, heading):
 
 
 def test_every_link_leads_to_a_file_and_heading():
+    assert sum(len(LINK.findall(text)) for text in PAGES.values()) > 100
     for page, text in PAGES.items():
         for path, heading in LINK.findall(text):
             target = (page.parent / path).resolve() if path else page
@@ -63,9 +64,9 @@ def is_of_a_deleted_study(target):
 
 @pytest.mark.extras
 def test_every_path_named_is_in_the_repository():
-    for page, text in PAGES.items():
-        for path in set(PATH.findall(text)) - NOT_IN_GIT:
-            assert (ROOT / path).exists(), f"{page}: {path}"
+    named = {(page, path) for page, text in PAGES.items() for path in set(PATH.findall(text)) - NOT_IN_GIT}
+    assert len(named) > 50
+    assert [(page, path) for page, path in named if not (ROOT / path).exists()] == []
 
 
 @pytest.mark.extras
@@ -112,9 +113,9 @@ def parses(command):
 
 @pytest.mark.extras
 def test_the_commands_of_pages_are_accepted():
-    for page, text in PAGES.items():
-        for command in set(commands(text)):
-            assert parses(command), f"{page}: {command}"
+    written = {(page, command) for page, text in PAGES.items() for command in commands(text)}
+    assert len(written) > 20
+    assert [(page, command) for page, command in written if not parses(command)] == []
     assert not parses("bladerub status --deep")
 
 

@@ -109,20 +109,20 @@ class Twice(RunOption):
 
 
 @pytest.mark.parametrize(
-    ("kind", "added", "made"),
+    ("kind", "added", "made", "culprit"),
     [
-        ("SECTIONS", {"solver": "settings.study:Speeds"}, whole),
-        ("SECTIONS", {"casings.amplitude": "settings.study:Speeds"}, whole),
-        ("RUN_OPTIONS", {"a": "contact.law"}, parser),
-        ("RUN_OPTIONS", {"a": f"{__name__}:Twice"}, parser),
+        ("SECTIONS", {"solver": "settings.study:Speeds"}, whole, "solver: is a key"),
+        ("SECTIONS", {"casings.amplitude": "settings.study:Speeds"}, whole, "amplitude: is a key"),
+        ("RUN_OPTIONS", {"a": "contact.law"}, parser, "contact.law: must be"),
+        ("RUN_OPTIONS", {"a": f"{__name__}:Twice"}, parser, "--output"),
     ],
 )
-def test_what_disagrees_with_the_core_is_refused(monkeypatch, kind, added, made):
+def test_what_disagrees_with_the_core_is_refused(monkeypatch, kind, added, made, culprit):
     offered = plugins.offered
     monkeypatch.setattr(plugins, "offered", lambda of: added if of == kind else offered(of))
     monkeypatch.setattr(plugins, "load", lambda place: Twice if "Twice" in place else load(place))
     monkeypatch.setattr(run, "_options", run._options.__wrapped__)
-    with pytest.raises(plugins.MissingPart):
+    with pytest.raises(plugins.MissingPart, match=culprit):
         getattr(made, "__wrapped__", made)()
 
 

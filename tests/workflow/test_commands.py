@@ -5,6 +5,7 @@ What the system refuses to read (locks, permissions, failing disks) is neither l
 
 import errno
 import fcntl
+import os
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -85,18 +86,22 @@ def contents(results):
 
 
 def keeps_all(study, kinds, commands, code):
-    before = contents(study.results)
+    """Give the commands, which may change nothing of a study; what they said."""
+    before, said = contents(study.results), []
     for kind in kinds:
         for command in commands:
             path = f"{REFUSALS}:{study.sources}"
             done = call(study, command, PYTHONPATH=path, REFUSED=FILES[kind], REFUSAL=str(code))
             assert contents(study.results) == before, (kind, command, done.stderr)
             assert command[0] == "python" or "Traceback" not in done.stderr, (kind, command, done.stderr)
+            said.append(done.stdout + done.stderr)
+    return said
 
 
 def test_runs_that_the_system_refuses_are_kept(copied_study):
     discarding, computing = ON_RESULTS[2], ON_RESULTS[8]
-    keeps_all(copied_study, ["runs"], (discarding, computing), errno.EIO)
+    for said in keeps_all(copied_study, ["runs"], (discarding, computing), errno.EIO):
+        assert os.strerror(errno.EIO) in said  # it was refused
 
 
 @pytest.mark.nightly

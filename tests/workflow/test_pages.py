@@ -99,6 +99,7 @@ def test_the_guides_name_targets_that_exist(workspace: Workspace):
         words = [word for word in words if not re.fullmatch(r"-n|-j\d+", word)]
         first = next((at for at, word in enumerate(words) if word.startswith("-")), len(words))
         gathered.setdefault(tuple(words[first:]), set()).update(words[:first] or ["all"])
+    assert len(gathered) > 1
     for options, targets in gathered.items():
         planned = workspace.dry_run(*targets, *options, "--quiet")
         assert all(target in planned for target in targets - {"all"}), options

@@ -106,12 +106,7 @@ def test_the_digest_of_a_blade_is_that_of_its_content_not_of_its_bytes_or_origin
     other[0, 0] = np.nextafter(1, 2)
     changed = [digest(each) for each in (other, eye.reshape(9, 1), eye.view(np.int64))]
     changed.append(digest(eye, eta=6))
-    assert len(same.union(changed)) == 5
-    for shape in ((3, 3), (9, 1)):  # in a file without dimensions
-        with h5py.File(tmp_path / "blade.h5", "w") as file:
-            file["mass"] = eye.reshape(shape)
-        same.add(blade_digest(tmp_path / "blade.h5"))
     with h5py.File(tmp_path / "blade.h5", "a") as file:
         file.move("mass", "stiffness_0")
-    same.add(blade_digest(tmp_path / "blade.h5"))
-    assert len(same) == 4
+    changed.append(blade_digest(tmp_path / "blade.h5"))
+    assert len(same.union(changed)) == 6

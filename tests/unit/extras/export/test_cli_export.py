@@ -55,10 +55,8 @@ def test_node_1_moves_as_in_the_history_of_the_run(words, figures, folder):
 
 def test_figures_as_json(words, figures, tmp_path, folder):
     told = figures(*words, tmp_path / "motion", "--samples", "2")
-    files = list((tmp_path / "motion").iterdir())
-    assert told["bytes"] == sum(file.stat().st_size for file in files)
-    assert (told["samples"], told["revolution"]) == (2, 2)
-    data = [meshio.read(file) for file in files if file.suffix == ".vtu"]
+    data = [meshio.read(file) for file in (tmp_path / "motion").glob("*.vtu")]
+    assert (told["samples"], told["revolution"]) == (len(data), 2)
     np.testing.assert_array_equal(data[0].points, hdf5.read(folder / "results/blade/mesh.h5")[0]["points"])
     moved = [np.linalg.norm(mesh.point_data["displacement"], axis=1).max() for mesh in data]
     assert told["largest_displacement"] == pytest.approx(max(moved))
@@ -143,11 +141,9 @@ def test_decks_are_written_for_three_speeds_or_those_named(export, tmp_path):
     names = ["blade_0.0000.inp", "blade_0.2000.inp", "blade_0.4000.inp"]
     written = export("--calculix", tmp_path / "decks")["files"]
     assert written == [str(tmp_path / "decks" / name) for name in names]
-    export("--calculix", tmp_path / "one", "--speeds", "0.3")
-    assert [path.name for path in (tmp_path / "one").iterdir()] == ["blade_0.3000.inp"]
-    export("--calculix", tmp_path / "rpm", "--speeds", "1000 rpm")
-    (deck,) = (tmp_path / "rpm").iterdir()
-    assert 0.05 < float(deck.stem.removeprefix("blade_")) < 0.15
+    export("--calculix", tmp_path / "two", "--speeds", "0.3", "1000 rpm")
+    slow, fast = sorted(float(deck.stem.removeprefix("blade_")) for deck in (tmp_path / "two").iterdir())
+    assert 0.05 < slow < 0.15 < fast == 0.3
 
 
 @pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])

@@ -54,15 +54,6 @@ def test_the_module_of_a_law_that_plugs_in_counts_for_the_key():
 
 
 @pytest.mark.slow
-@pytest.mark.nightly
-def test_the_law_of_the_paper_from_a_file_gives_the_same_bits(blade, spec, change):
-    wanted, found = simulate(blade, spec), simulate(blade, change(spec, element_law=OWN))
-    np.testing.assert_array_equal(found.wear, wanted.wear)
-    np.testing.assert_array_equal(found.radial_displacement, wanted.radial_displacement)
-    assert found.energy == wanted.energy
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "law",
     [pytest.param(law, marks=[] if law.name == "viscoplastic" else pytest.mark.nightly) for law in LAWS[1:]],

@@ -1,5 +1,4 @@
 import itertools
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -9,11 +8,7 @@ from bladerub.contact.illustration import LoadingCycle
 from bladerub.contact.spec import Coating
 from bladerub.extras.chart import stiffening
 from bladerub.extras.laws import cycles
-from bladerub.extras.passages.sweeps import SpeedSweep
 from bladerub.extras.plots.chart import QUANTITIES, chart_explanation, chart_map, chart_stiffening
-from bladerub.extras.plots.passages import sweeps
-from bladerub.extras.verification import steps
-from bladerub.study.grid import CoatingCase
 
 
 @pytest.fixture
@@ -57,35 +52,3 @@ def test_each_law_has_a_panel_with_its_cycles_in_megapascals(draws):
     slow, fast = draws(cycles.draw({"one": {"soft": cycle([0, 0.01, 0.01])}, "two": two})).axes[1].lines
     np.testing.assert_allclose(fast.get_xydata(), [[0, 0], [1, 6], [2, 12]])
     np.testing.assert_allclose(slow.get_ydata(), [0, 0, 6])
-
-
-def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws):
-    case, speeds = CoatingCase("2nd", 1.1, 0.5, 0.0), np.linspace(0.14, 0.4, 30)
-
-    def sweep(direction, rate, status="completed"):
-        amplitude = 1e-3 * np.exp(-(((speeds - 0.3) / 0.02) ** 2))
-        if status == "unbounded":
-            amplitude[20:] = np.nan
-        speed, none = speeds if direction == "up" else speeds[::-1], np.empty((0, 3))
-        spectra = none[:, 0], none[:, 0], speeds[:3], none
-        return SpeedSweep(case, direction, rate, status, 1e-5, 1e-4, speed, amplitude, amplitude, *spectra)
-
-    amplitude = np.array([[1e-4, 2e-4], [1e-3, 2e-3], [1e-4, 9e-3]])
-    constant = SimpleNamespace(f_omega=np.array([0.2, 0.3, 0.4]), revolution_amplitude=amplitude)
-    constant.status = np.array(["completed", "completed", "unbounded"])
-    drawn = [sweep("up", 0.05), sweep("down", 0.05), sweep("up", 0.2, "unbounded")]
-    up, down = draws(sweeps(drawn, {case: constant})).axes
-    np.testing.assert_allclose(up.lines[0].get_ydata(), [0.2, 2.0, 9.0])
-    np.testing.assert_allclose(down.lines[1].get_xdata(), speeds[::-1])
-
-
-def test_errors_stand_over_steps_and_chaotic_runs_are_left_out():
-    tolerances, counts = [0.03, 0.01, np.nan], [2e3, 4e3, 8e3]
-    runs = pd.DataFrame({"E": [2.0, 2.0, 2.0, np.inf], "error": [1e-3, 3e-3, 0.5, 1e-4]})
-    runs["sensitive"] = runs.error > 0.1
-    finenesses = pd.DataFrame({"tolerance": tolerances, "steps_per_revolution": counts})
-    panels = steps.draw_steps(finenesses.merge(runs, how="cross")).axes
-    for panel, error in zip(panels, (2e-3, 2.8e-3), strict=True):  # median, and what most do not exceed
-        of_E2 = next(line for line in panel.get_lines() if line.get_label() == "E = 2")
-        np.testing.assert_allclose(of_E2.get_xdata(), [4e3, 2e3])
-        np.testing.assert_allclose(of_E2.get_ydata(), error)

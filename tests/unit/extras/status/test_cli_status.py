@@ -56,24 +56,15 @@ def test_stale_runs_are_counted_and_damaged_ones_named_and_deleted_on_request(
     assert whole.exists()
 
 
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
-
-
-def done(number, total):
-    return RunDone(number, total, "0.1000.h5", "completed", 0.1, 0.2)
-
-
-def test_each_run_is_a_line_of_the_log_and_the_bar_is_on_a_terminal_only(tmp_path, monkeypatch, capsys):
-    terminal, file = Terminal(), io.StringIO()
-    for stream in (terminal, file):
-        monkeypatch.setattr(sys, "__stderr__", stream)
-        progress = JobProgress("2nd_E2_K0.5_theta0", tmp_path / "runs")
-        progress(done(1, 2))
-        progress(done(2, 2))
-        progress.finish([])
-        assert capsys.readouterr().err.splitlines()[:2] == [str(done(1, 2)), str(done(2, 2))]
-    assert "2nd_E2_K0.5_theta0" in terminal.getvalue()
-    assert "/2 |" in terminal.getvalue()
-    assert file.getvalue() == ""
+@pytest.mark.parametrize("is_terminal", [True, False])
+def test_each_run_is_a_line_of_the_log_and_the_bar_is_on_a_terminal_only(
+    tmp_path, monkeypatch, capsys, is_terminal
+):
+    stream, run = io.StringIO(), RunDone(1, 1, "0.1000.h5", "completed", 0.1, 0.2)
+    stream.isatty = lambda: is_terminal
+    monkeypatch.setattr(sys, "__stderr__", stream)
+    progress = JobProgress("2nd_E2_K0.5_theta0", tmp_path / "runs")
+    progress(run)
+    progress.finish([])
+    assert capsys.readouterr().err.splitlines()[0] == str(run)
+    assert ("2nd_E2_K0.5_theta0" in stream.getvalue()) == bool(stream.getvalue()) == is_terminal

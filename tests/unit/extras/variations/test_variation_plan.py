@@ -3,6 +3,7 @@ import dataclasses
 import functools
 import itertools
 import operator
+import re
 
 import numpy as np
 import pandas as pd
@@ -105,13 +106,8 @@ def test_a_wrong_entry_of_a_plan_or_a_factor_of_no_number_is_refused_with_its_pl
         assert problem.location.line > 0
     for path in ("contact.modulus", "casings.2nd.weights[1]", "results"):
         plan = make(edited("factors", "unit", "sets", to={path: [1, 2]}))
-        with pytest.raises(ConfigError) as caught:
+        with pytest.raises(ConfigError, match=rf"plan.yaml:\d+: factors.unit.sets.{re.escape(path)}"):
             configs_of(config, plan, "soft/0")
-        (problem,) = caught.value.problems
-        assert problem.text.startswith(f"factors.unit.sets.{path}")
-        assert problem.location.line in {
-            line for at, (_, line) in plan.locations.items() if "unit.sets" in at
-        }
 
 
 def test_only_what_determines_a_sample_is_a_reason_to_run_it(config, make):
@@ -166,11 +162,8 @@ def test_each_set_is_laid_over_what_is_common_and_that_over_a_file(config, tmp_p
     assert {config.contact.damping_ratio for config in sets.values()} == {2e-3}
     with pytest.raises(ConfigError, match=r"plan.yaml:1: file = .*: cannot be read"):
         sets_of(asked(f"file: none.yaml\n{text}"))
-    with pytest.raises(ConfigError) as caught:
+    with pytest.raises(ConfigError, match=r"a: contact.damping_ratio = 2.*\n.* c: contact.damping"):
         sets_of(asked("sets: {a: {contact: {damping_ratio: 2}}, c: {contact: {damping: 1}}}\n"))
-    first, second = sorted(problem.text for problem in caught.value.problems)
-    assert first.startswith("a: contact.damping_ratio = 2")
-    assert second.startswith("c: contact.damping")
 
 
 @pytest.mark.parametrize(("file", "of_the_study"), [("calibration", "study"), ("laws", "plastic")])

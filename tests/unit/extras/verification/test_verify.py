@@ -185,14 +185,11 @@ def test_a_row_holds_errors_what_starts_change_and_cost(monkeypatch):
     lines = []
     table = verify.table(None, {}, {"all": runs, "important": runs[-2:]}, lines.append)
     assert len(lines) == len(table) == 3 * 12 + 2  # drawn thrice
-    row = table[table.f_omega > 0.2].iloc[0]
+    row, within = table[table.f_omega > 0.2].iloc[0], table[table.f_omega < 0.2].iloc[0]
     assert (row.E, row.K, row.theta, row.law, row.status) == (2.0, 0.5, 0.15, "theta", "completed")
     assert (row.error_wear_l2, row.error_revolution_peak, row.start_wear_l2) == (0.02, 0.002, 0.015)
-    assert row.sensitive
-    assert row.cpu_s == 0.25
-    within = table[table.f_omega < 0.2].iloc[0]
+    assert (row.sensitive, row.cpu_s, within.sensitive) == (True, 0.25, False)
     assert math.isnan(within.start_wear_l2)
-    assert not within.sensitive
     assert within.speedup_at_equal_error == 200.0
 
 
