@@ -56,9 +56,7 @@ def radial_compliance(blade: ReducedBlade) -> float:
     return float(force @ np.linalg.solve(blade.stiffness_0, force))
 
 
-def runs(
-    config: Config, pairs: Iterable[tuple[CoatingMap, CoatingMap]], lengths: tuple[float, float]
-) -> pd.DataFrame:
+def runs(config: Config, pairs: Iterable[tuple], lengths: tuple[float, float]) -> pd.DataFrame:
     """Compare maps of this study and of the reference at common speeds: rows of `RUN_COLUMNS`."""
     tables = [pd.DataFrame(columns=RUN_COLUMNS)]
     for one, other in pairs:

@@ -43,10 +43,8 @@ class Cells(NamedTuple):
         if missing:
             bare = {re.split(r"\s*[\[(]", column)[0] for column in columns}
             cure = "; no unit may stand behind a name" if bare.issuperset(missing) else ""
-            raise ValueError(
-                f"has no column {', '.join(missing)}; line {self.header} must name {', '.join(names)}, "
-                f"separated as the cells below ({self.separator} here){cure}"
-            )
+            right = f"line {self.header} must name {', '.join(names)}, separated as the cells below"
+            raise ValueError(f"has no column {', '.join(missing)}; {right} ({self.separator} here){cure}")
 
     def column(self, name: str) -> list[str]:
         """Return the cells of a column, in any case; a ValueError names a line with too many or too few."""

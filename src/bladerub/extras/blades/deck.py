@@ -18,7 +18,6 @@ _FORCES = dict.fromkeys(("inch", "in", "feet", "ft"), 4.4482216152605)  # N, whe
 _YOUNG = (1e9, 1e12)  # Pa, from plastics to ceramics
 _DENSITY = (500.0, 25e3)  # kg/m³, as blade.material.density of the config
 _POISSON = (0.05, 0.49)
-_ENCODING = {"encoding": "utf-8-sig", "errors": "replace"}
 
 
 class Line(NamedTuple):
@@ -87,7 +86,7 @@ def _lines(path: Path, folder: Path, chain: tuple[Path, ...]) -> Iterator[Line]:
     """Yield keyword lines, each whole in one, and lines of data; below a keyword those of its ``INPUT``."""
     prefix = f"{path.name}, " if len(chain) > 1 else ""
     head = ""
-    with path.open(**_ENCODING) as stream:
+    with path.open(encoding="utf-8-sig", errors="replace") as stream:
         for count, raw in enumerate(stream, 1):
             text = raw.strip()
             if not text or text.startswith("**"):

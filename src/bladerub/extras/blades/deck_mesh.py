@@ -11,13 +11,11 @@ from bladerub.blade.surface import FACES
 from bladerub.extras.blades import deck
 from bladerub.extras.blades.deck import Block, Line
 
-_SOLID = re.compile(r"C3D(\d+)[A-Z]*")
 _KINDS = {4: "tetra", 5: "pyramid", 6: "wedge", 8: "hexahedron"}  # in meshio, by number of nodes
 _KINDS |= {10: "tetra10", 13: "pyramid13", 15: "wedge15", 20: "hexahedron20", 27: "hexahedron27"}
 # elements of lines and surfaces, whose sets are sets of nodes here
 _MARKING = re.compile(r"(T[23]D[23]|B[23][123]|STRI|S[34689]|M3D|SFM3D|CP[ES]\d|R3D|DS\d)\w*")
 _GENERATING = ("*NGEN", "*NFILL", "*NCOPY", "*NMAP", "*ELGEN", "*ELCOPY")
-_FACE_LABEL = re.compile("S([1-6])")
 _QUADRATIC = {8: 20, 20: 20, 4: 10, 10: 10}  # nodes of the element with the same faces
 
 
@@ -162,7 +160,7 @@ class _Model:
             if block.parameters.get("TYPE", "ELEMENT").upper() == "NODE":
                 nodes.update(dict.fromkeys(_members(Line(member, line.place), self.node_sets)))
                 continue
-            face = _FACE_LABEL.fullmatch(label[0].upper()) if label else None
+            face = re.fullmatch("S([1-6])", label[0].upper()) if label else None
             elements = _members(Line(member, line.place), self.element_sets)
             if face is None or any(len(self.nodes[number]) not in _QUADRATIC for number in elements):
                 return  # of shells or wedges, or all outer faces of a set
@@ -184,7 +182,7 @@ def _name(block: Block, parameter: str) -> str:
 def _size(block: Block) -> int | None:
     """Count the nodes of each solid element of a block; None of lines and surfaces."""
     name = _name(block, "TYPE").upper()
-    solid = _SOLID.fullmatch(name)
+    solid = re.fullmatch(r"C3D(\d+)[A-Z]*", name)
     if solid and int(solid[1]) in _KINDS:
         return int(solid[1])
     if not _MARKING.fullmatch(name):

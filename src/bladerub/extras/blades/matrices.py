@@ -67,10 +67,19 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
             right = f"must have more than {n_required}, the modes that are wanted"
             raise ValueError(f"has {n_internal} free coordinates off the interface; {right}")
 
+    n, n_all = free.free.size, 3 * free.n_nodes
+    rotation = kron(eye_array(n // 3), frame.turn, format="csc")
+    right = f"must have three rows for each of the {free.n_nodes} nodes of {NODES} ({n_all})"
+    right += f", or for each that is not clamped ({n})" if n < n_all else ""
+
     def read(name: str) -> tuple[csc_array, csc_array]:
+        """Read a matrix, and from it that of the free coordinates, in the blade's axes and SI units."""
         with naming(names[name]):
             whole = matrix_folder.read_matrix(names[name])
-            return whole, _of_free(whole, free, unit, frame.turn)
+            if whole.shape[0] not in (n, n_all):
+                raise ValueError(f"is {whole.shape[0]} x {whole.shape[0]}; {right}")
+            matrix = whole[free.free][:, free.free] if whole.shape[0] > n else whole
+            return whole, csc_array(unit * (rotation @ matrix @ rotation.T))
 
     mass_of_all, mass = read(MASS)
     stiffness = {f_omega: read(name)[1] for f_omega, name in at_speeds.items()}
@@ -162,20 +171,6 @@ def _layout(nodes: matrix_folder.Nodes, frame: Frame, tip_cone: float | None) ->
     return measured(mesh, frame, tip_cone)
 
 
-def _of_free(matrix: csc_array, free: FreeCoordinates, unit: float, turn: np.ndarray) -> csc_array:
-    """Rows and columns of the free coordinates in `matrix`, in the blade's axes and SI units."""
-    n, n_all = free.free.size, 3 * free.n_nodes
-    if matrix.shape[0] not in (n, n_all):
-        raise ValueError(
-            f"is {matrix.shape[0]} x {matrix.shape[0]}; must have three rows for each of the {free.n_nodes} "
-            f"nodes of {NODES} ({n_all})" + (f", or for each that is not clamped ({n})" if n < n_all else "")
-        )
-    if matrix.shape[0] > n:
-        matrix = matrix[free.free][:, free.free]
-    rotation = kron(eye_array(n // 3), turn, format="csc")
-    return csc_array(unit * (rotation @ matrix @ rotation.T))
-
-
 def _rigid_mass(mass: csc_array) -> float:
     """Mass of the rigid body, the mean of the three directions."""
     rigid = np.tile(np.eye(3), (mass.shape[0] // 3, 1))
@@ -200,20 +195,14 @@ def check_definite(matrix: csc_array) -> None:
     if low.size:
         fault = f"its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}"
         raise ValueError(f"is not positive definite: {fault}; must be above 0")
-    # Ritz values lie between the eigenvalues: a negative one is proof. Near zero `check_held` is needed
-    scale = 1 / np.sqrt(diagonal)
-    ritz = _ritz_values(lambda vector: scale * (matrix @ (scale * vector)), diagonal.size)
-    if ritz.min() < -_ROUNDING * np.abs(ritz).max():
-        raise ValueError("is not positive definite: it has negative eigenvalues")
-
-
-def _ritz_values(product, n: int) -> np.ndarray:
+    # Ritz values of Lanczos's method lie between the eigenvalues: a negative one is proof (see `check_held`)
+    n, scale = diagonal.size, 1 / np.sqrt(diagonal)
     vector = np.random.default_rng(0).standard_normal(n)
     vector /= np.linalg.norm(vector)
     before, beta = np.zeros(n), 0.0
     alphas, betas = [], []
     for _ in range(min(_STEPS, n)):
-        residual = product(vector) - beta * before
+        residual = scale * (matrix @ (scale * vector)) - beta * before
         alphas.append(residual @ vector)
         residual -= alphas[-1] * vector
         beta = np.linalg.norm(residual)
@@ -221,7 +210,9 @@ def _ritz_values(product, n: int) -> np.ndarray:
         if beta <= _ROUNDING * abs(alphas[0]):
             break
         before, vector = vector, residual / beta
-    return eigvalsh_tridiagonal(np.array(alphas), np.array(betas[:-1]))
+    ritz = eigvalsh_tridiagonal(np.array(alphas), np.array(betas[:-1]))
+    if ritz.min() < -_ROUNDING * np.abs(ritz).max():
+        raise ValueError("is not positive definite: it has negative eigenvalues")
 
 
 def check_held(stiffness: csc_array, mode: np.ndarray) -> None:

@@ -18,7 +18,6 @@ from bladerub.extras.cells import Cells
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 SUFFIXES = (".mtx", ".npz")
-_SUFFIXES_OF_CALCULIX = (".mas", ".sti", ".dof")
 NODES = "nodes.csv"
 MASS = "mass"
 FIT = ("stiffness_rest", "stiffness_half", "stiffness_max")  # at the speeds of the fit
@@ -29,8 +28,6 @@ _ENTRIES_OF_DENSE = 5 * 10**7  # as many may be there in any matrix
 LARGEST = 1e100  # entry; penalties have 1e20 or so, and beyond 1e154 squares overflow
 _SMALL = 1000  # bytes, of the head of an array
 _IN_NUMBERS = b"0123456789+-.eEdD \t\r\nnNaAiIfFtTyY"  # and in nan, inf, infinity
-_D_TO_E = bytes.maketrans(b"dD", b"eE")
-_SHOWN = 40  # characters of a line
 _CONVERTED = "docs/how-to/bring_a_blade.md has the script that converts"
 SYMMETRY = 1e-8  # largest difference of two entries that must be equal, over the largest entry
 _POSITION = ("x", "y", "z")
@@ -57,7 +54,7 @@ def files(folder: Path) -> dict[str, Path]:
         if len(matches) > 1:
             raise ValueError(f"holds both {name}.mtx and {name}.npz")
         if not matches:
-            ccx = [path.name for path in sorted(folder.iterdir()) if path.suffix in _SUFFIXES_OF_CALCULIX]
+            ccx = [path.name for path in sorted(folder.iterdir()) if path.suffix in (".mas", ".sti", ".dof")]
             hint = f"; {_CONVERTED} {', '.join(ccx)} of CalculiX" if ccx else ""
             raise ValueError(f"holds no {name}.mtx or {name}.npz{hint}")
         (paths[name],) = matches
@@ -149,7 +146,7 @@ def _size_of_text(path: Path) -> tuple[int, int, int]:
         if first.startswith("**") or numbers:
             kind = "COORDINATE" if numbers and "," not in first else "MATRIX INPUT"
             raise ValueError(f"it is of Abaqus, FORMAT={kind}; {_CONVERTED} it")
-        raise ValueError(f"it begins with {first[:_SHOWN]!r}; must begin with %%MatrixMarket")
+        raise ValueError(f"it begins with {first[:40]!r}; must begin with %%MatrixMarket")
     rows, columns, entries, _, field_name, _ = mminfo(path)
     if field_name == "pattern":
         raise ValueError("it holds places of entries (pattern), and no numbers")
@@ -165,7 +162,7 @@ def _numbers_of(path: Path) -> io.BytesIO:
         place = body.index(odd[:1])
         line = content.count(b"\n", 0, end_of_comments + place) + 1
         raise ValueError(f"line {line} has {odd[:1].decode('latin-1')!r}; must hold numbers with a point")
-    return io.BytesIO(content[:end_of_comments] + body.translate(_D_TO_E))
+    return io.BytesIO(content[:end_of_comments] + body.translate(bytes.maketrans(b"dD", b"eE")))
 
 
 def _size_of_archive(path: Path) -> tuple[int, int, int]:

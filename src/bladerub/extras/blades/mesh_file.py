@@ -24,7 +24,6 @@ _LOOKED_THROUGH = 4000  # bytes, for the first line
 _STARTS = {"$MESHFORMAT": ".msh", "<VTKFILE": ".vtu"}
 _STARTS |= dict.fromkeys(("*NODE", "*HEADING", "*PART"), ".inp")
 _ENDS = {".msh": "$End", ".vtu": "</VTKFile>"}
-_WITH_CENTRES = "hexahedron27"
 _KINDS = ("hexahedron20", "tetra10", "hexahedron", "tetra")  # in meshio; of the last two, quadratic are made
 
 
@@ -107,7 +106,7 @@ def _volume(content: Content) -> np.ndarray:
     if not content.solids:
         raise ValueError(f"has no volume elements; must have some of one kind, {choices}")
     (kind, cells), *others = content.solids.items()
-    if kind == _WITH_CENTRES and not others:
+    if kind == "hexahedron27" and not others:
         cells = cells[:, :20]  # without the nodes in the middle of faces and of the element
     elif others or kind not in _KINDS:
         raise ValueError(

@@ -83,9 +83,7 @@ def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
     return float(np.arctan2(x @ (radius - radius.mean()), x @ x))
 
 
-def interface(
-    points: np.ndarray, faces: np.ndarray, downstream_x: int, n_nodes: int
-) -> tuple[np.ndarray, float, float]:
+def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int, n_nodes: int) -> tuple:
     """Choose `n_nodes` interface nodes, leading to trailing edge, evenly along the camber line of the tip.
 
     The tip, the `faces` of the mesh there, is unrolled about the engine axis. Also returns the length of the

@@ -154,8 +154,10 @@ def _warn_of_frame(figures: dict[str, Any], source: Source, points: np.ndarray) 
         yield f"the leading edge of the tip is {behind}: {doubt}"
 
 
-def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
-    """Warn of what no blade is like: a length or an angle is in another unit than the rest."""
+def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
+    yield from _warn_of_frame(figures, source, imported.blade.mesh.mesh.points)
+
+    # what no blade is like: a length or an angle is in another unit than the rest
     length, chord = figures["length"], figures["tip_chord"]
     root, tip = figures["extents"]["radius"]
     if not ASPECTS[0] <= length / chord <= ASPECTS[1]:
@@ -174,10 +176,6 @@ def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
             cause = f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears"
             yield f"{cause}: is its {doubt} right?"
 
-
-def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
-    yield from _warn_of_frame(figures, source, imported.blade.mesh.mesh.points)
-    yield from _warn_of_proportions(figures)
     n_elements, offset = figures["elements_root_to_tip"], figures["interface_offset"]
     if imported.is_raised:
         yield "its elements were linear: they got mid-side nodes, but curved faces stay faceted"
@@ -191,10 +189,9 @@ def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -
     cut = [section for section in imported.sections if max(section.cut) > 0]
     if cut:
         share, name = max((max(section.cut) / section.chord, section.name) for section in cut)
-        yield (
-            f"edges of {len(cut)} of {len(imported.sections)} sections were cut off where they are thinner "
-            f"than {EDGE_SHARE:.0%} of the section: up to {share:.2%} of the chord (section {name})"
-        )
+        thin = f"where they are thinner than {EDGE_SHARE:.0%} of the section"
+        extent = f"up to {share:.2%} of the chord (section {name})"
+        yield f"edges of {len(cut)} of {len(imported.sections)} sections were cut off {thin}: {extent}"
     if offset > LARGEST_OFFSET * figures["tip_chord"]:
         yield f"an interface node is {1e3 * offset:.3g} mm from its place on the camber line of the tip"
 

@@ -32,11 +32,10 @@ def check_joined(mass: csc_array, stiffness: csc_array) -> None:
     is_penalty = (mass.diagonal() > 0) & (square > square[joined].max(initial=0.0))
     isolated = np.flatnonzero(~joined & ~is_penalty)
     if isolated.size:
-        raise ValueError(
-            f"{isolated.size} coordinates are joined to no other (row {isolated[0] + 1} is the first, "
-            "without those of clamped nodes): clamped ones with a number on the diagonal? Mark their nodes "
-            "in the column clamped of nodes.csv, or leave their rows out"
-        )
+        first = f"row {isolated[0] + 1} is the first, without those of clamped nodes"
+        doubt = f"{isolated.size} coordinates are joined to no other ({first}): clamped ones with a number on"
+        cure = "Mark their nodes in the column clamped of nodes.csv, or leave their rows out"
+        raise ValueError(f"{doubt} the diagonal? {cure}")
 
 
 def check_mass(mass: csc_array, rows: np.ndarray) -> None:
@@ -174,9 +173,7 @@ def _unequal(mass: csc_array) -> np.ndarray:
     return (off > _UNEQUAL * pairs.sum(axis=1)) & (np.diff(pairs.indptr) < max(len(off), 2))
 
 
-def _check_coordinates(
-    matrix: csc_array, is_bad: Callable[[csc_array], np.ndarray], rows: np.ndarray, fault: str
-) -> None:
+def _check_coordinates(matrix: csc_array, is_bad: Callable, rows: np.ndarray, fault: str) -> None:
     """Raise ValueError of the `fault` of bad nodes; it says whether all x come first, then all y, all z."""
     bad = is_bad(matrix)
     if bad.any():

@@ -78,16 +78,14 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
     length = np.linalg.norm(chord)
     steps = np.diff(middle, axis=0) @ chord
     if length == 0 or (steps <= 0).any():
-        index = int(np.argmin(steps))
-        raise ValueError(
-            f"line {section.lines[index + 1]}: this station of section {section.name} is no further along "
-            f"the chord than that of line {section.lines[index]}; they must go from the leading to the "
-            "trailing edge, each section once, under a name of its own"
-        )
+        before, line = section.lines[np.argmin(steps) :][:2]
+        fault = f"this station of section {section.name} is no further along the chord than that of line"
+        right = "they must go from the leading to the trailing edge, each section once, under its own name"
+        raise ValueError(f"line {line}: {fault} {before}; {right}")
     if downstream_x * chord[0] < -1e-3 * length:
-        fault = "its first station lies downstream of its last; must begin at the leading edge, or"
         label = f"section {section.name} (line {section.lines[0]})"
-        raise ValueError(f"{label}: {fault} blade.source.downstream has the wrong sign")
+        right = "must begin at the leading edge, or blade.source.downstream has the wrong sign"
+        raise ValueError(f"{label}: its first station lies downstream of its last; {right}")
     thickness = _cross(np.gradient(middle, axis=0), flat[1] - flat[0])
     sign = 1 if thickness.sum() > 0 else -1
     bad = sign * thickness < -1e-9 * np.abs(thickness).max()

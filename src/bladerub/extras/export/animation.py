@@ -1,9 +1,7 @@
 """A run as an animation: the blades turn in the casing, seen along the axis, and the coating wears."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import numpy as np
 from matplotlib.animation import FuncAnimation, PillowWriter
@@ -25,9 +23,7 @@ _HUB, _TIP, _RING = 0.45, 0.8, 0.85  # radii in the picture; the worn depth is d
 
 
 @styled
-def animate(
-    path: str | Path, recording: Recording, blade: ReducedBlade, row: Row, attributes: Mapping[str, Any]
-) -> None:
+def animate(path: str | Path, recording: Recording, blade: ReducedBlade, row: Row, attributes: dict) -> None:
     """Write an animated GIF, whole or not at all: a frame for each instant of the `recording`.
 
     The worn depth (mean of the nodes) and the radial displacement of node 1 of each blade are drawn on the

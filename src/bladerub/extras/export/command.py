@@ -13,7 +13,6 @@ from bladerub.extras.export import blade_command
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
-    from bladerub.api.blade import Blade
     from bladerub.blade.model import ReducedBlade
     from bladerub.extras.export.recording import Recording
     from bladerub.settings.study import Config
@@ -156,10 +155,8 @@ def _animation(options: argparse.Namespace, config: "Config") -> tuple[dict[str,
     )
 
 
-def _run_of_file(
-    options: argparse.Namespace, config: "Config", form: str
-) -> "tuple[StoredRun, PlannedRun, Blade, Config]":
-    """Read the run whose motion is written to a new file or folder, plan it again, and read its blade."""
+def _run_of_file(options: argparse.Namespace, config: "Config", form: str) -> tuple:
+    """Read a run whose motion is to be written, plan it again, read its blade; return them and its config."""
     if options.samples is None:
         options.samples = 100
     require(options, samples=(1, config.contact.elements))

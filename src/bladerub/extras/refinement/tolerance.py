@@ -12,10 +12,9 @@ from bladerub.extras.blade_doubts import MODES, errors_by_mode
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import BladeSpec
 
-log = logging.getLogger(__name__)
+MOST_FIT_SPEEDS, MOST_MODES_PER_SPEED = 7, 30
 
-MOST_FIT_SPEEDS = 7
-MOST_MODES_PER_SPEED = 30
+log = logging.getLogger(__name__)
 
 
 def reduce_to_tolerance(
@@ -42,8 +41,6 @@ def reduce_to_tolerance(
             n_modes += 2
         else:
             state = f"{errors.reduced_model:.2g} with {n_speeds} fit speeds and {n_modes} modes at each"
-            raise BadInput(
-                f"reduction.tolerance = {tolerance:g}: the reduced model comes to {state} (eq. (2) alone to "
-                f"{errors.speed_law:.2g}); must be more, or lower reduction.f_omega_max or "
-                "reduction.rank_tolerance"
-            )
+            reached = f"the reduced model comes to {state} (eq. (2) alone to {errors.speed_law:.2g})"
+            right = "must be more, or lower reduction.f_omega_max or reduction.rank_tolerance"
+            raise BadInput(f"reduction.tolerance = {tolerance:g}: {reached}; {right}")

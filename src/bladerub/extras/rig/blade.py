@@ -151,7 +151,7 @@ def simulate_blade_passes(
         normal = math.cos(rig.theta) * impulse
         tangential = math.sin(rig.theta) * impulse + (balance.wear - taken) / rig.speed
         per_time = rig.speed / sample.length
-        wear = sample.worn_depth()
+        wear = sample.mean(simulation.state.wear)
         forces = (normal * per_time, tangential * per_time, normal, tangential, largest_pressure)
         worn_now = (wear, wear - worn, balance.wear - taken, rise, balance.residual)
         passes.append((number, depth, *forces, *worn_now, math.cos(rig.theta) * largest, amplitude))
@@ -220,14 +220,11 @@ class _Sample:
         pressure = float((of_nodes / self._area).max())
         return impulse, float(total.max()), pressure, 0.5 * (highest - lowest)
 
-    def worn_depth(self) -> float:
-        """Mean worn depth of the sample, m."""
-        wear = by_angle(self._blade, self._spec, self._simulation.state.wear)
-        return float(wear[:, self._coated].mean())
+    def mean(self, values: np.ndarray) -> float:
+        """Mean over the sample of the `values` of its state."""
+        return float(by_angle(self._blade, self._spec, values)[:, self._coated].mean())
 
     def rise(self) -> float:
         """Mean rise of the temperature of the sample, K; NaN if the law knows no heat."""
-        if self._simulation.layer is None:
-            return math.nan
-        rise = by_angle(self._blade, self._spec, self._simulation.layer.rise(self._simulation.state))
-        return float(rise[:, self._coated].mean())
+        layer = self._simulation.layer
+        return math.nan if layer is None else self.mean(layer.rise(self._simulation.state))

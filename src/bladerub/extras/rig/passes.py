@@ -85,9 +85,7 @@ def compared(rigs: Iterable[Rig], passes: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["rig", "quantity", "computed", "measured_on_rig", "assumed", "source"])
 
 
-def _one_passage(
-    law: ModuleType, element: Any, depth: np.ndarray, wear: float
-) -> tuple[np.ndarray, float, float, float]:
+def _one_passage(law: ModuleType, element: Any, depth: np.ndarray, wear: float) -> tuple:
     """Press an element along `depth` (n,) below its original surface (m); it was worn by `wear` before.
 
     The edge of the tip comes down on it in the first step, and leaves it in the last. Returns, without heat,

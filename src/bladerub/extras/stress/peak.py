@@ -33,9 +33,7 @@ class ModalStress(NamedTuple):
     slope: np.ndarray  # (k, 6, m), per unit of each coordinate
 
     @classmethod
-    def of_mesh(
-        cls, stress: NodalStress, recovery: np.ndarray, points: np.ndarray, nodes: np.ndarray
-    ) -> "ModalStress":
+    def of_mesh(cls, stress: NodalStress, recovery: np.ndarray, points, nodes) -> "ModalStress":
         """Find it at `nodes` of a mesh, whose coordinates displace it by `recovery` (k, n_nodes, 3)."""
         static = _six(stress(np.zeros(points.shape)), nodes)
         slope = np.array([_six(stress(displacement), nodes) - static for displacement in recovery])
