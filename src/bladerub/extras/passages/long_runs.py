@@ -58,10 +58,7 @@ DATASETS = {field.name: field.type.__metadata__ for field in fields(LongRuns) if
 
 
 def chosen(config: Config, coating: CoatingMap) -> dict[float, str]:
-    """Choose the runs of a coating that are repeated for longer: the reason for each, by speed.
-
-    These are its peaks, or where its orders meet C1 if it has none, and the completed runs that still grow.
-    """
+    """Choose the runs that are made for longer: peaks, and completed ones that grow; the reasons by speed."""
     peaks = peak_settings(config, coating.case.casing)
     reasons = {
         float(coating.f_omega[nearest_speed(coating, order, peaks)]): f"f{order:g}" for order in peaks.orders
@@ -80,10 +77,12 @@ def make(
     compile_kernel(bool(config.contact.tip_turns), blade.n_interface, element_law(config))
     case, revolutions = coating.case, config.long_runs.revolutions
     reasons = chosen(config, coating)
-    results, seconds = [], np.full((len(reasons), revolutions), np.nan)
+    results, ends, seconds = [], [0.0], np.full((len(reasons), revolutions), np.nan)
     for elapsed, (f_omega, why) in zip(seconds, reasons.items(), strict=True):
         spec = replace(run_spec(config, case, f_omega), revolutions=revolutions)
-        results.append(simulate(blade, spec, _stopwatch(elapsed)))
+        ends[:] = [time.perf_counter()]
+        results.append(simulate(blade, spec, lambda _: ends.append(time.perf_counter())))
+        elapsed[: len(ends) - 1] = np.subtract(ends[1:], ends[0])
         report(f"{f_omega:.4f} ({why}): {results[-1].message}")
     amplitude = np.stack([result.revolution_amplitude for result in results])
     max_wear, status = zip(*((result.wear.max(), result.status) for result in results), strict=True)
@@ -93,16 +92,6 @@ def make(
         name: Variable(dims, getattr(long, name), *about) for name, (dims, *about) in DATASETS.items()
     }
     hdf5.write(path, variables, asdict(case), provenance(config.plain()))
-
-
-def _stopwatch(elapsed: np.ndarray) -> Callable[[int], None]:
-    """Return a callback that fills `elapsed` (r,) with the wall time until the end of each revolution, s."""
-    start = time.perf_counter()
-
-    def note(revolutions: int) -> None:
-        elapsed[revolutions - 1] = time.perf_counter() - start
-
-    return note
 
 
 def read(path: str | Path) -> LongRuns:
@@ -120,11 +109,7 @@ def stops(config: Config) -> list[int]:
 
 
 def verdict_after(config: Config, amplitude: np.ndarray, revolutions: int) -> tuple[str, Verdict]:
-    """Judge the first `revolutions` of a long run.
-
-    It is ``free`` if the vibration has died out because the blade has worn the coating away (`DIED_OUT`), and
-    ``saturating`` if it grew in the revolutions of the study and no longer does.
-    """
+    """Judge the first `revolutions` of a long run; ``free``: the vibration has died out (`DIED_OUT`)."""
     settings, history = config.analysis.divergence, amplitude[:revolutions]
     status = "completed" if np.isfinite(history).all() else "unbounded"
     verdict = judge(history, status, settings)
@@ -139,10 +124,7 @@ def verdict_after(config: Config, amplitude: np.ndarray, revolutions: int) -> tu
 
 
 def table(config: Config, coatings: Iterable[LongRuns]) -> pd.DataFrame:
-    """Judge long runs after each of `stops`: a row per run and stop.
-
-    ``max_wear`` and ``status`` are of the whole run, all else of the revolutions until the stop.
-    """
+    """Judge long runs after each of `stops`; ``max_wear`` and ``status`` are of the whole run."""
     last, rows = config.analysis.divergence.revolutions, []
     for long in coatings:
         for index, revolutions in itertools.product(range(long.f_omega.size), stops(config)):

@@ -86,15 +86,11 @@ def make(
         name: Variable(dims, values[name], units, long_name.format(window=window))
         for name, (dims, units, long_name) in _DATASETS.items()
     } | {"node": interface_node(len(result.wear))}
-    attributes = {
-        **asdict(case),
-        "direction": direction,
-        "rate": rate,
-        **{name: getattr(result, name) for name in ("status", "message", "n_steps", "n_contact_steps")},
-        "energy_residual": result.residual,
-        "energy_work_stiffness": result.work_stiffness,
-        **{f"energy_{name}": value for name, value in vars(result.energy).items()},
-    }
+    attributes = asdict(case) | {"direction": direction, "rate": rate}
+    names = ("status", "message", "n_steps", "n_contact_steps")
+    attributes |= {name: getattr(result, name) for name in names}
+    attributes |= {"energy_residual": result.residual, "energy_work_stiffness": result.work_stiffness}
+    attributes |= {f"energy_{name}": value for name, value in vars(result.energy).items()}
     hdf5.write(path, variables, attributes, provenance(config.plain()))
     return result
 
@@ -121,10 +117,7 @@ def read(path: str | Path) -> SpeedSweep:
 def table(
     config: Config, sweeps: Iterable[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]
 ) -> pd.DataFrame:
-    """Compare the peaks of sweeps with those at constant speed, in `maps`: a row per sweep and engine order.
-
-    Both are sought in the same window of speeds. A peak ``survives`` from the ratio ``sweeps.survival`` on.
-    """
+    """Compare peaks of sweeps with those at constant speed, in `maps`: a row per sweep and engine order."""
     settings, rows = config.analysis.peaks, []
     pairs = ((sweep, order) for sweep in sweeps for order in peak_orders(config, sweep.case.casing))
     for sweep, order in pairs:

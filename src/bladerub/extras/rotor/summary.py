@@ -22,8 +22,7 @@ from bladerub.study.manifest import read_manifest
 from bladerub.study.store import read_run
 from bladerub.study.wear import dominant_harmonic, lobes
 
-WHAT = ["casing", "E", "K", "theta", "f_omega", "blades"]
-WHAT += ["length_scatter", "frequency_scatter", "coupling"]
+WHAT = ["casing", "E", "K", "theta", "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling"]
 """Columns that name a combination, as `bladerub.extras.rotor.plan.described` does."""
 
 MEASURED = ["row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share"]
@@ -78,11 +77,7 @@ def _measure(path: Path, analysis: Analysis) -> dict[str, Any]:
 
 
 def combinations(table: pd.DataFrame) -> pd.DataFrame:
-    """Sum up the draws of each combination, with `COLUMNS`.
-
-    Of each measure the median with its 95 % interval (``low``, ``high``), which holds whatever the
-    distribution, and the 5 and 95 % quantiles.
-    """
+    """Sum up the draws of each combination: medians, quantiles, and the 95 % interval of the median."""
     rows = []
     for what, of_what in table.groupby(WHAT, sort=False):
         counts = of_what["wear_harmonic"].value_counts()

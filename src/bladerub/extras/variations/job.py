@@ -52,8 +52,7 @@ def cases(
 ) -> list[Case]:
     """Make the config of each small study of a job, from the `study` that is varied.
 
-    `positions` (d,) are by set, None for the study's own values; a set that has none is left out. Without
-    them they are those of the plan or, where it has none, the study's own values.
+    `positions` (d,) are by set, None for the study's own values; by default they are those of the plan.
     """
     if positions is None:
         positions = dict.fromkeys(job.sets) | known(plan)
@@ -122,9 +121,8 @@ def judge(
 ) -> dict[str, pd.DataFrame]:
     """Make the small study of each case, judge the claims of its part and measure their targets.
 
-    Returns the tables ``verdicts``, ``quantities`` (measured targets; NaN where a study has nothing to
-    measure) and ``cost`` (processor time in s, without that of the blade). Each blade is built once, in a
-    folder of `blades`. `folder`, for the only case, keeps runs, maps, peaks and divergence.
+    Tables ``verdicts``, ``quantities`` (NaN where nothing is measured) and ``cost`` (without the blade). Each
+    blade is built once, in a folder of `blades`. `folder`, for the only case, keeps runs and maps.
     """
     verdicts, quantities, cost = [], [], []
     for case in cases:
