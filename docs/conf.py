@@ -58,16 +58,10 @@ html_static_path = ["_static"]
 html_css_files = ["bladerub.css"]
 html_sidebars = {"**": ["pages.html"]}
 templates_path = ["_templates"]
-html_theme_options = {
-    "navbar_center": [],
-    "navigation_with_keys": False,
-    "show_toc_level": 2,
-    "secondary_sidebar_items": ["page-toc"],
-    "footer_start": ["copyright"],
-    "footer_end": [],
-}
-html_show_sourcelink = False
-html_copy_source = False
+html_theme_options = {"navbar_center": [], "navigation_with_keys": False, "show_toc_level": 2}
+html_theme_options |= {"secondary_sidebar_items": ["page-toc"]}
+html_theme_options |= {"footer_start": ["copyright"], "footer_end": []}
+html_show_sourcelink = html_copy_source = False
 
 
 def _link_explorer(app, docname, source):

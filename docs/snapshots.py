@@ -75,10 +75,7 @@ def update(folder: Path, results: Path) -> None:
 
 
 def source_of(name: str, results: Path) -> Path | None:
-    """Return the table of which ``<name>.csv`` is a snapshot, `None` if it was not made.
-
-    ``peaks`` is of the study, ``longer_peaks`` of that in ``results/longer`` or ``results_longer``.
-    """
+    """Return the table of a snapshot, if made: ``longer_peaks`` in ``results/`` or ``results_longer``."""
     places = [results / "tables" / f"{name}.csv", results / "benchmarks" / f"{name}.csv"]
     words = name.split("_")
     for count in range(1, len(words)):

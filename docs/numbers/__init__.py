@@ -28,10 +28,7 @@ def data_folders(root: Path = ROOT) -> list[Path]:
 
 
 class Tables(dict[str, pd.DataFrame]):
-    """Tables of the repository at `root` by name, each read when it is first asked for.
-
-    ``tables["peaks"].attrs["commit"]`` is the commit of the program that computed it.
-    """
+    """Tables of the repository at `root` by name, read when asked for; ``attrs["commit"]`` made them."""
 
     def __init__(self, root: Path = ROOT) -> None:
         super().__init__()

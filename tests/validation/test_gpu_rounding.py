@@ -11,7 +11,7 @@ import pytest
 
 from bladerub.contact.run import simulate
 from bladerub.extras.gpu import emulation
-from bladerub.extras.gpu.many import simulate_many
+from bladerub.extras.gpu.batch import simulate_many
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
 pytestmark = [

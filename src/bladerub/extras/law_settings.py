@@ -1,5 +1,6 @@
-"""What a config says of a law of the coating."""
+"""What a config, or the options of a command, say of a law of the coating."""
 
+import argparse
 from collections.abc import Mapping
 from typing import Annotated, Any
 
@@ -9,7 +10,10 @@ from bladerub.config.files import Located
 from bladerub.config.keys import Key
 from bladerub.config.quantities import converted
 from bladerub.extras.law_reading import parameters_in
+from bladerub.io.errors import BadInput
 from bladerub.settings.fields import Form, Omitted, Section, Unit, disagreement
+
+PARAMETER: dict[str, Any] = {"action": "append", "default": [], "metavar": "NAME=VALUE"}
 
 
 class Law(Section):
@@ -50,3 +54,19 @@ def law_entry(law: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
     """Return ``contact.law`` of a config for a law by its name or file, with quantities as plain numbers."""
     entry = {"file" if law.endswith(".py") else "name": law, **parameters}
     return converted(Located.of(entry), Law)[0].plain()
+
+
+def law_parameters(option: str, settings: list[str]) -> dict[str, float | str]:
+    """Read what the command line gives for each parameter of a law."""
+    from bladerub.cli import inputs  # who reads a config does without
+
+    values = {}
+    for setting in settings:
+        name, _, value = setting.partition("=")
+        if name.strip() in values:
+            raise BadInput(f"{option} = {setting}: must be there once for each parameter")
+        try:
+            values[name.strip()] = inputs.quantity(value)
+        except argparse.ArgumentTypeError:
+            raise BadInput(f"{option} = {setting}: must be NAME=VALUE, such as viscosity=1e4") from None
+    return values

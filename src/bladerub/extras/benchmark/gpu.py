@@ -12,7 +12,7 @@ import pandas as pd
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
 from bladerub.extras.benchmark import record
-from bladerub.extras.gpu.many import simulate_many
+from bladerub.extras.gpu.batch import simulate_many
 from bladerub.extras.study_runs import study_runs
 from bladerub.io.errors import BadInput
 from bladerub.settings.study import Config

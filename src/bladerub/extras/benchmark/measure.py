@@ -1,8 +1,7 @@
 """Speeds of the time loop, measured side by side in one process.
 
 Every loop integrates the same two revolutions from rest: once on a casing so near that the tip touches it in
-a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts. So they do
-with more interface nodes on the tip.
+a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts.
 """
 
 import statistics

@@ -51,12 +51,12 @@ def _processor() -> str:
 
 def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
     """Arrange what `measure.benchmark` returns in two rows: with contact, and free."""
+    machine, totals = ([figures.get(name) for name in names] for names in (MACHINE, _WHOLE))
     records = []
     for motion, ending in (("contact", ""), ("free", "_free")):
         steps = [figures["steps_per_second"][loop][motion] for loop in LOOPS]
         ratios = [figures[f"ratio_to_{loop}{ending}"] for loop in ("numpy", "numba")]
-        of_machine, totals = ([figures.get(name) for name in names] for names in (MACHINE, _WHOLE))
-        records.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *totals])
+        records.append([*machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *totals])
     return pd.DataFrame(records, columns=COLUMNS)
 
 

@@ -15,10 +15,9 @@ _TYPES = {"a number": "number", "a whole number": "integer", "text": "string", "
 
 
 def json_schema() -> Rule:
-    """Make the JSON schema (draft 2020-12) of a file that is laid over the study.
+    """Make the JSON schema (draft 2020-12) of a file that is laid over the study; it compares no keys.
 
-    Such a file may leave out any key of a group, but not those of an entry of a list, which is replaced as a
-    whole. What compares keys with each other is not in it.
+    Such a file may leave out any key of a group, but none of an entry of a list, which is replaced whole.
     """
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **_rule(key_of(whole()), True)}
 
@@ -47,9 +46,8 @@ def _rule(key: Key, is_laid_over: bool) -> Rule:
         return rule | _group(key, is_laid_over)
     value: Rule = {"type": _TYPES[key.kind]}
     value |= {_BOUNDS[name]: bound for name, bound in key.bounds.items()}
-    value |= {"enum": list(key.choices)} if key.choices else {}
-    value |= {"pattern": key.pattern} if key.pattern else {}
-    value |= {"maxLength": most} if most is not None else {}
+    further = {"enum": list(key.choices) or None, "pattern": key.pattern or None, "maxLength": most}
+    value |= {name: setting for name, setting in further.items() if setting is not None}
     return rule | ({"anyOf": [value, _quantity(key)]} if key.kind == "a number" else value)
 
 
@@ -72,7 +70,7 @@ def _group(key: Key, is_laid_over: bool) -> Rule:
 
 def _quantity(key: Key) -> Rule:
     """Allow text that is a number with a unit."""
-    kinds = [key.unit.kind] if key.unit.kind else []
-    kinds = list(UNITS) if key.unit.name == "SI" else [*kinds, *["share"] * key.is_share]
+    kinds = [kind for kind in (key.unit.kind, "share" if key.is_share else "") if kind]
+    kinds = list(UNITS) if key.unit.name == "SI" else kinds
     names = "|".join(re.escape(name) for kind in kinds for name in UNITS[kind])
     return {"type": "string", "pattern": rf"^\s*{NUMBER}\s*({names})\s*$"}

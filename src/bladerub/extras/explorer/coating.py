@@ -51,12 +51,12 @@ def parts(
     spectrum_revolutions: int,
     max_frequency: float,
 ) -> dict[str, str]:
-    """Pack one coating, each part as `packed`; parameters as of `of_runs` and `kept_orders`.
+    """Pack one coating, each part as `packed`.
 
-    ``wear``: bytes, n speeds × m arcs, means in steps of 1/255 of the deepest of each row, and of these the
-    differences along the row. ``spectrum``: bytes, `logarithmic_steps`, the kept orders of each speed one
-    after the other. ``growth``: the same in two bytes (little-endian), for each speed the revolutions of the
-    study's run and of the longer run. ``figures``: JSON, `of_runs` and the scales, in mm.
+    ``wear``: bytes, n speeds × m arcs, differences along the row of means in steps of 1/255 of its deepest.
+    ``spectrum``: bytes, `logarithmic_steps` of the kept orders of each speed. ``growth``: the same in two
+    bytes (little-endian), for each speed the revolutions of the study's run and of the longer run.
+    ``figures``: JSON, `of_runs` and the scales, in mm.
     """
     bounds = arcs(coating.angle.size)
     wear = np.add.reduceat(coating.wear, bounds[:-1], axis=1, dtype=float) / np.diff(bounds)

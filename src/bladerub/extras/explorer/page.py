@@ -54,9 +54,8 @@ def build(
         coating_scales = _scales(coating_map, max_frequency)
         scales = scales or coating_scales
         if coating.json_text(coating_scales) != coating.json_text(scales):
-            raise ValueError(
-                f"{map_path}: not of the same blade, speeds and angles as {map_paths[0]}; make the maps again"
-            )
+            problem = f"not of the same blade, speeds and angles as {map_paths[0]}"
+            raise ValueError(f"{map_path}: {problem}; make the maps again")
         coatings.append(_coating(coating_map.case, peaks, configs))
         for name, text in coating.parts(coating_map, divergence, runs, revolutions, max_frequency).items():
             data.append(f'<script type="application/gzip" id="{name}-{index}">{text}</script>')

@@ -1,9 +1,10 @@
-"""Runs as the loop on a GPU reads them, and what it leaves as the states of these runs.
+"""Many runs of one blade on a device: packed as the loop on a GPU reads them, and finished by what it leaves.
 
 Runs of one blade at one speed, or of one coating, share what is equal: it is packed once.
 """
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
@@ -11,15 +12,19 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
+from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.kernel import elements, free_flight, newton
 from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import Modal
 from bladerub.contact.laws import module_of, source_of
-from bladerub.contact.run import History
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import History, simulate
 from bladerub.contact.schemes import Recurrence
+from bladerub.contact.setup import set_up
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.extras.gpu import formulas
 from bladerub.numerics.vectors import LANES
@@ -160,6 +165,45 @@ def described(work: Work) -> dict[str, tuple[tuple[int, ...], type, float]]:
         "ledger": ((n, _LEDGER_ROWS + 1, WARP), np.float64, 0.0),
         "counts": ((n, len(COUNTS)), np.int64, 0),
     }
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
+def simulate_many(
+    blade: ReducedBlade,
+    specs: Sequence[RunSpec],
+    device: Device,
+    report: Callable[[int, str], None] = lambda runs, line: None,
+) -> Iterator[tuple[int, RunResult]]:
+    """Simulate runs on a device; yield the number of each with its result, in any order.
+
+    One that the device does not know, or can't finish, is simulated here; `report` is told how many these
+    are, with a line for a log. Raises as `simulate`.
+    """
+    variants: dict[Variant, list[tuple[int, Recurrence, Simulation]]] = defaultdict(list)
+    left_out: dict[str, list[int]] = defaultdict(list)
+    for number, spec in enumerate(specs):
+        rule, simulation = set_up(blade, spec)
+        if reason := refusal(spec, simulation):
+            left_out[reason].append(number)
+        else:
+            variants[variant_of(spec, simulation)].append((number, rule, simulation))
+    parts = [
+        (variant, prepared[first : first + MOST_RUNS])
+        for variant, prepared in variants.items()
+        for first in range(0, len(prepared), MOST_RUNS)
+    ]
+    works = (pack(variant, [simulation for *_, simulation in part]) for variant, part in parts)
+    for (_, part), output in zip(parts, device(works), strict=True):
+        for i, (number, rule, simulation) in enumerate(part):
+            history = finish(rule, simulation, output, i)
+            if history is None:
+                left_out["Newton's method did not converge in a step"].append(number)
+            else:
+                yield number, history.run_result(blade, specs[number], rule, simulation)
+    for reason, numbers in left_out.items():
+        report(len(numbers), f"{len(numbers)} of {len(specs)} runs on the CPU: {reason}")
+        for number in numbers:
+            yield number, simulate(blade, specs[number])
 
 
 def pack(variant: Variant, simulations: Sequence[Simulation]) -> Work:

@@ -61,8 +61,7 @@ def describe() -> str:
     return f"{properties['name'].decode()}, {properties['multiProcessorCount']} multiprocessors"
 
 
-_Arrays = tuple["list[cupy.ndarray]", "list[cupy.ndarray]"]
-"""Inputs and outputs of a piece of work, on the GPU."""
+_Arrays = tuple["list[cupy.ndarray]", "list[cupy.ndarray]"]  # inputs and outputs of a piece of work
 
 
 def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iterator[Output]:
@@ -118,10 +117,9 @@ def _filled(shape: tuple[int, ...], kind: type, value: float) -> "cupy.ndarray":
 
 def _size(work: Work) -> int:
     """Bytes on the GPU."""
-    output_size = sum(
-        math.prod(shape) * np.dtype(kind).itemsize for shape, kind, _ in described(work).values()
-    )
-    return output_size + sum(array.nbytes for array in work[4:])
+    outputs = described(work).values()
+    size = sum(math.prod(shape) * np.dtype(kind).itemsize for shape, kind, _ in outputs)
+    return size + sum(array.nbytes for array in work[4:])
 
 
 @cache

@@ -26,9 +26,9 @@ class Gpu(Solver):
         self, blade: ReducedBlade, specs: Sequence[RunSpec], _: int, report: Callable[[str], None], *__: Any
     ) -> Iterator[Solved]:
         """Yield each run as it is done; raises `bladerub.extras.gpu.device.NoGpuError` without a GPU."""
-        from bladerub.extras.gpu import many, server  # load the compiler: who plans runs alone does without
+        from bladerub.extras.gpu import batch, server  # load the compiler: who plans runs alone does without
 
-        results = many.simulate_many(blade, specs, server.find(), lambda runs, line: report(line))
+        results = batch.simulate_many(blade, specs, server.find(), lambda runs, line: report(line))
         return (Solved(number, result, 0.0) for number, result in results)
 
     def determinants(self) -> dict[str, str]:

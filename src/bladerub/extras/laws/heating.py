@@ -126,10 +126,9 @@ def cell_heights(thickness: float, heated_depth: float) -> np.ndarray:
 
 
 def decay(height: np.ndarray, heat_capacity: float, conductivity: float) -> tuple[np.ndarray, np.ndarray]:
-    """Find how heat leaves a column whose lower end does not warm.
+    """Return the rates (n,) at which modes of a column decay whose lower end stays cold, 1/s, and the modes.
 
-    Returns the rates (n,) at which its modes decay, 1/s, and these (n, n), orthonormal: temperatures times
-    the roots of the capacities of the cells, a column each.
+    These (n, n) are orthonormal columns: temperatures times the roots of the capacities of the cells.
     """
     apart = np.append(0.5 * (height[1:] + height[:-1]), 0.5 * height[-1])
     conductance = conductivity / apart  # below each cell, W/(m² K)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from bladerub.cli import inputs
 from bladerub.cli.run import RunOption
-from bladerub.extras.law_options import PARAMETER, law_parameters
+from bladerub.extras.law_settings import PARAMETER, law_parameters
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:

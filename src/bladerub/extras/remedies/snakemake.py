@@ -30,10 +30,7 @@ _DEFAULT_JOB_RATE = (100, 1)  # jobs, seconds
 
 
 def begin() -> None:
-    """Ignore a second Ctrl-C that comes while Snakemake ends after the first, for a few seconds.
-
-    It would break off what ends the jobs, in a traceback of Snakemake's event loop.
-    """
+    """Ignore a second Ctrl-C for a few seconds: it would break off what ends the jobs, in a traceback."""
     last = -math.inf
 
     def interrupt(number: int, frame: Any) -> None:
@@ -47,10 +44,7 @@ def begin() -> None:
 
 
 def start(workflow: Any, results: Iterable[str]) -> None:
-    """Claim the files of Snakemake's `workflow`, and be ready for what ends it.
-
-    Files of the future in the folders `results` become of now. Raises as `claim`, and where no job can start.
-    """
+    """Claim the files of Snakemake's `workflow`, be ready for what ends it, and `date_back` files."""
     if re.search(r"[\s'\"\\$`&;|<>()*?[\]!]", sys.executable):
         raise BadInput(
             f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the "
@@ -124,9 +118,8 @@ def _handle_termination_beside() -> None:
 def _schedule_by_events(workflow: Any) -> None:
     """Let Snakemake look for jobs when one ends, and not all the time.
 
-    Its limit of 100 jobs a second (Snakemake 9.27, where none is given) sets a timer of a second in each
-    round of the scheduler, and the timer begins another round. So each job that ends adds a round a second,
-    up to the end of the study.
+    Its limit of 100 jobs a second, where none is given, sets a timer of a second in each round of the
+    scheduler, which begins another: each job that ends adds a round a second, up to the end of the study.
     """
     scheduler = workflow.scheduler
     limiter = scheduler.job_rate_limiter

@@ -25,10 +25,9 @@ BLADE = "blade/reduced_model.h5"
 class Results(NamedTuple):
     """A finished study: SI units, speeds as normalised ``f_omega`` or ``f_peak`` and in ``rpm``.
 
-    ``runs`` has a row for each coating and speed, ``peaks`` one for each coating and engine order, the worst
-    coating first, both with the ``name`` of the coating. ``coatings`` has one for each coating, by name, the
-    worst first: its highest peak, its deepest wear, and the shares of its speeds that diverge and that pass
-    the displacement limit. ``chart`` is ``chart_choice.csv``, empty without a chart.
+    ``runs`` has a row for each coating and speed, ``peaks`` one for each coating and engine order, both with
+    the ``name`` of the coating. ``coatings`` has one for each coating: highest peak, deepest wear, and the
+    shares of its speeds that diverge and that pass the displacement limit. The worst come first.
     """
 
     config: Config
@@ -40,7 +39,7 @@ class Results(NamedTuple):
     coatings: pd.DataFrame
     campbell: pd.DataFrame
     accuracy: pd.DataFrame
-    chart: pd.DataFrame
+    chart: pd.DataFrame  # ``chart_choice.csv``, empty without a chart
     origin: dict[str, str]  # provenance of the tables
 
     def map(self, name: str) -> CoatingMap:

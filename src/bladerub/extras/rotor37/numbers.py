@@ -48,13 +48,10 @@ def of_displacement(name: str, radial_displacement: np.ndarray, revolutions: int
     """Extremes and harmonics of the radial displacement of node 1 in the last revolutions of a run."""
     displacement = radial_displacement.reshape(revolutions, -1)[-_LAST:]
     order, amplitude = order_spectrum(radial_displacement, revolutions, _LAST, float(max(ORDERS)))
-    rows = [
-        (f"{name}.highest", displacement.max(), "m"),
-        (f"{name}.lowest", displacement.min(), "m"),
-        (f"{name}.amplitude", np.ptp(displacement) / 2, "m"),
-        *((f"{name}.order_{k}", amplitude[np.argmin(abs(order - k))], "m") for k in (2, *ORDERS)),
-    ]
-    return _numbers(rows)
+    values = {"highest": displacement.max(), "lowest": displacement.min()}
+    values["amplitude"] = np.ptp(displacement) / 2
+    values |= {f"order_{k}": amplitude[np.argmin(abs(order - k))] for k in (2, *ORDERS)}
+    return _numbers([(f"{name}.{quantity}", value, "m") for quantity, value in values.items()])
 
 
 def of_coating(config: Config, coating: CoatingMap, blade: ReducedBlade) -> pd.DataFrame:

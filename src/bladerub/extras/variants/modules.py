@@ -128,11 +128,7 @@ def _exchange_law(source: str) -> None:
 
 
 def _checked(element: Callable, kind: type[NamedTuple]) -> Callable:
-    """Check what the function `element` of a law gives as its `kind` of parameters.
-
-    The checked function raises `ValueError` on anything but finite numbers, one or as many as there are
-    areas, and on what the law itself raises.
-    """
+    """Let `element` of a law raise `ValueError` on all but finite numbers, one or as many as areas."""
     fields = kind._fields
 
     def checked(coating: Coating, area: float | np.ndarray, time_step: float = math.inf) -> NamedTuple:
@@ -141,9 +137,8 @@ def _checked(element: Callable, kind: type[NamedTuple]) -> Callable:
             parameters = tuple(element(coating, area, time_step))
         if "elastic" not in fields:
             raise ValueError(f"law {law.name}: Element has no elastic, the stiffness of an element")
-        if len(parameters) != len(fields):
-            wrong = f"{len(parameters)} parameters, must be {len(fields)}"
-            raise ValueError(f"law {law.name}: element returns {wrong}")
+        if (n := len(parameters)) != len(fields):
+            raise ValueError(f"law {law.name}: element returns {n} parameters, must be {len(fields)}")
         rows = []
         for field, value in zip(fields, parameters, strict=True):
             try:

@@ -7,9 +7,8 @@ from typing import Any
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
 from bladerub.extras.bounds import require
-from bladerub.extras.law_options import PARAMETER, law_parameters
 from bladerub.extras.law_reading import law_of
-from bladerub.extras.law_settings import law_entry
+from bladerub.extras.law_settings import PARAMETER, law_entry, law_parameters
 from bladerub.io.errors import BadInput
 
 

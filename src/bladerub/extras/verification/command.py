@@ -2,17 +2,13 @@
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bladerub.api.display import bar
 from bladerub.cli import inputs
 from bladerub.cli.inputs import refused
 from bladerub.extras.bounds import require
 from bladerub.io.errors import BadInput
-
-if TYPE_CHECKING:
-    from bladerub.extras.verification.verify import StudyRun
-    from bladerub.settings.study import Config
 
 _MEASURES = {"wear_l2": "wear (L2)", "peak": "spectral peak", "revolution_peak": "revolution peak"}
 _STATISTICS = {"median": "median", "p95": "95 %", "max": "worst"}
@@ -55,11 +51,18 @@ def verify(options: argparse.Namespace) -> None:
     if options.rows and options.peaks:
         raise BadInput(f"--rows = {options.rows}: not with --peaks, which are of single blades")
 
-    from bladerub.extras.study_runs import important_runs, study_runs
+    from bladerub.extras.study_runs import StudyRun, important_runs, study_runs
     from bladerub.extras.verification.verify import draw, summary, verify_runs
 
     if options.rows:
-        runs = _rows(config, options.rows)
+        from bladerub.extras.rotor.plan import read_plan
+
+        plan = read_plan(options.rows, config)
+        runs = [
+            StudyRun(member.case, member.f_omega, plan.row(member, number), f"{member.name}/{number:04d}")
+            for member, draws in plan.draws.items()
+            for number in range(draws)
+        ]
     elif options.peaks:
         runs = important_runs(config, inputs.study_folder() / config.results / "maps")
     else:
@@ -79,19 +82,6 @@ def verify(options: argparse.Namespace) -> None:
         verified = sorted(done, key=lambda one: one.run.name)
     inputs.warn_of_residual(options, max(run.energy_residual for run in verified))
     inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | summary(verified), _in_words)
-
-
-def _rows(config: "Config", path: Path) -> "list[StudyRun]":
-    """List every row of the plan at `path`."""
-    from bladerub.extras.rotor.plan import read_plan
-    from bladerub.extras.verification.verify import StudyRun
-
-    plan = read_plan(path, config)
-    return [
-        StudyRun(member.case, member.f_omega, plan.row(member, draw), f"{member.name}/{draw:04d}")
-        for member, draws in plan.draws.items()
-        for draw in range(draws)
-    ]
 
 
 def _in_words(figures: dict[str, Any]) -> str:

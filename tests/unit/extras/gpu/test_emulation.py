@@ -19,7 +19,7 @@ from bladerub.contact.setup import set_up
 from bladerub.contact.spec import ElementLaw, TipProfile
 from bladerub.contact.tip import coverage, relief
 from bladerub.extras.gpu import batch, device, emulation, formulas
-from bladerub.extras.gpu.many import simulate_many
+from bladerub.extras.gpu.batch import simulate_many
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law
 
