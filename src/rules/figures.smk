@@ -13,7 +13,7 @@ def in_study(*cases):
 
 
 def map_of(case):
-    return f"{RESULTS}/maps/{case.name}.h5"
+    return MAP.format(coating=case.name)
 
 
 def part_of_run(case, part):

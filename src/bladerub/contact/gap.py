@@ -13,8 +13,7 @@ from bladerub.numerics.vectors import absolute, all_lanes, elementwise, sqrt
 def closest_position(tip, tangential, travel):
     """Position of the point of the casing closest to each node, eq. (7), in elements.
 
-    `tangential` is the displacement of the nodes (m), `travel` the number of elements that the rotation has
-    passed since the start of the revolution.
+    `tangential` is the displacement (m), `travel` the elements passed since the start of the revolution.
     """
     return load(tip.start, 0) + travel + tangential * load(tip.per_metre, 0)
 

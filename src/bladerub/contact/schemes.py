@@ -64,10 +64,9 @@ class Contact(NamedTuple):
 def central_differences(modes: Modes, damping_ratio: float, time_step: float, contact: Contact) -> Recurrence:
     """Set up explicit central differences with prediction and correction, the paper's scheme.
 
-    All modes are resolved. The forces of the coating are those of the predicted position. Those of the
-    rigid casing are Lagrange multipliers that put the corrected position on the surface (Carpenter, Taylor
-    and Katona 1991). Raises `ValueError` if the scheme is unstable at this step for the highest mode (``ω h
-    ≥ 2``).
+    All modes are resolved. The forces of the coating are those of the predicted position. Those of the rigid
+    casing are Lagrange multipliers that put the corrected position on the surface (Carpenter, Taylor and
+    Katona 1991). Raises `ValueError` if it is unstable for the highest mode (``ω h ≥ 2``).
     """
     x = modes.omega * time_step
     if x[-1] >= 2.0:

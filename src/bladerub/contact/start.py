@@ -14,13 +14,7 @@ from bladerub.contact.laws import element_parameters, module_of
 from bladerub.contact.modes import Modes, tip_radii
 from bladerub.contact.schemes import Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunSpec
-from bladerub.contact.strips import (
-    element_angle,
-    element_area,
-    first_element,
-    running_clearance,
-    start_position,
-)
+from bladerub.contact.strips import element_angle, element_area, running_clearance, start_position
 from bladerub.numerics.memory import aligned
 
 SEARCH_RANGE = 4  # elements a node may move along the casing before the search for contact looks at it alone
@@ -93,8 +87,8 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     else:
         parameters = element_parameters(coating, area, rule.time_step)
     clearance, angle = running_clearance(blade, spec)[:, None], element_angle(coating.n_elements)
-    gap, first = casing.gap(spec.casing, clearance, angle) - seat.longer, first_element(blade, spec)
-    rows = np.array([np.roll(of_node, -shift) for of_node, shift in zip(gap, first, strict=True)])
+    gap, first = casing.gap(spec.casing, clearance, angle) - seat.longer, start_position(blade, spec)
+    rows = np.array([np.roll(of_node, -int(shift)) for of_node, shift in zip(gap, first, strict=True)])
     unused = np.full((coating.n_elements, area.size - len(rows)), _NEVER)
     stator = records.Stator(
         initial_gap=np.hstack([rows.T, unused]),

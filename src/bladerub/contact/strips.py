@@ -43,12 +43,7 @@ def start_position(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
     return angle / (2 * np.pi) * n_elements % n_elements
 
 
-def first_element(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Element (j,) that each node stands over at the start of a revolution: the first row."""
-    return start_position(blade, spec).astype(int)
-
-
 def by_angle(blade: ReducedBlade, spec: RunSpec, rows: np.ndarray) -> np.ndarray:
     """Bring (N, lanes) rows of elements into the order (j, N) of the angle, for the j nodes."""
-    first = first_element(blade, spec)
+    first = start_position(blade, spec).astype(int)  # element that each node stands over: the first row
     return np.array([np.roll(of_node, shift) for of_node, shift in zip(rows.T, first, strict=False)])

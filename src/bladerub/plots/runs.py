@@ -37,10 +37,9 @@ def histories(paths: Iterable[str | Path], scales: Scales = UNKNOWN) -> tuple[pd
     The table is what is drawn: ``theta``, ``revolution`` and ``radial_displacement`` of node 1, m, or NaN.
     """
     runs = {run.attributes["theta"]: run for run in map(read_run, paths)}
+    drawn = ("revolution", "radial_displacement")
     table = pd.concat(
-        pd.DataFrame(
-            {"theta": theta} | {name: run.data[name] for name in ("revolution", "radial_displacement")}
-        )
+        pd.DataFrame({"theta": theta} | {name: run.data[name] for name in drawn})
         for theta, run in runs.items()
     )
     figure = new_figure(PAGE, 0.76 * PAGE)

@@ -24,8 +24,7 @@ def log_to(path: str | Path) -> None:
     """Send standard error to the log at `path`, each line as it comes.
 
     The error of a file or input is then reported in one line, in the log and on the former standard error, so
-    that it is seen even if the log is on a full disk. Of others the log has the traceback, both the last
-    line.
+    that it is seen even if the log is on a full disk. Of others it has the traceback, both the last line.
     """
     collect_seldom()
     sys.stderr = open(path, "w", buffering=1, encoding="utf-8")  # noqa: SIM115 (a traceback must reach it)
@@ -49,8 +48,7 @@ def log(line: object) -> None:
 class JobProgress:
     """Report of `bladerub.study.job.compute_missing` on the coating `name`, called with each finished run.
 
-    The log of the job takes a line for each run, which is in `folder`, with the estimated time left; what
-    plugs in (``BARS``) shows it elsewhere.
+    The log of the job takes a line for each run in `folder`, with the time left; ``BARS`` show it elsewhere.
     """
 
     def __init__(self, name: str, folder: Path):

@@ -55,8 +55,7 @@ def add_work(stator, tip, angle, state, u_after, u, u_before):
     """Add the work of the forces at `u`, over half of the path from the step before to the step after.
 
     The blade rotates by `angle` (rad) in a step. Sliding takes the tangential force times the distance over
-    the casing. A unit of approach takes N from the tip, of which the blade gives N cos θ; the rest comes from
-    there too.
+    the casing. A unit of approach takes N from the tip, of which the blade gives N cos θ, sliding the rest.
     """
     entry, normal_force = state.ledger, load(state.normal_force, LANES)
     more_radial = 0.5 * (load(u_after, 0) - load(u_before, 0))

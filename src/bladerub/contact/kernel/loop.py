@@ -203,8 +203,7 @@ def _put_in_order(rows, n, turns):
 def integrate(records, steps_per_element, first, last, is_flying, reach, displacement):
     """Integrate elements `first` to `last`; `displacement` is the address of the mean of each.
 
-    A part that goes on gets `is_flying` and `reach` of the part before. Returns these, then the fields of
-    `Progress`.
+    A part that goes on gets `is_flying` and `reach` of the last. Returns both, then the fields of `Progress`.
     """
     modal, flight, stator, tip, state = records
     turns = n_flights = n_contact = 0
