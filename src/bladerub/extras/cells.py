@@ -43,8 +43,8 @@ class Cells(NamedTuple):
         if missing:
             bare = {re.split(r"\s*[\[(]", column)[0] for column in columns}
             cure = "; no unit may stand behind a name" if bare.issuperset(missing) else ""
-            right = f"line {self.header} must name {', '.join(names)}, separated as the cells below"
-            raise ValueError(f"has no column {', '.join(missing)}; {right} ({self.separator} here){cure}")
+            rule = f"line {self.header} must name {', '.join(names)}, separated as the cells below"
+            raise ValueError(f"has no column {', '.join(missing)}; {rule} ({self.separator} here){cure}")
 
     def column(self, name: str) -> list[str]:
         """Return the cells of a column, in any case; a ValueError names a line with too many or too few."""
@@ -80,8 +80,8 @@ class Cells(NamedTuple):
         commas = [(line, cell) for line, cell in numbers if "," in cell]
         if points and commas:
             (line, cell), (other_line, other) = points[0], commas[0]
-            right = "all numbers must have the same decimal mark, and none between thousands"
-            raise ValueError(f"line {line} has {cell} and line {other_line} {other}; {right}")
+            rule = "all numbers must have the same decimal mark, and none between thousands"
+            raise ValueError(f"line {line} has {cell} and line {other_line} {other}; {rule}")
         if commas and all(_THOUSANDS.fullmatch(cell) for _, cell in commas):
             (line, cell), doubt = commas[0], "with a decimal comma, or one between thousands?"
             cure = f"Write {cell.replace(',', '.')} or {cell.replace(',', '')}"

@@ -119,11 +119,11 @@ def _read_blade(config: "Config", nominal: float | None) -> "tuple[dict[str, Any
     from bladerub.extras.blades import importing, matrices, report
 
     if config.blade.source.matrices:
-        given = matrices.import_matrices(config.blade.source, config.reduction)
-        config = config.replaced("blade.length", round(given.blade.layout.length, 6))
-        built = reduce_given(given.blade, config)
+        imported = matrices.import_matrices(config.blade.source, config.reduction)
+        config = config.replaced("blade.length", round(imported.blade.layout.length, 6))
+        built = reduce_given(imported.blade, config)
         importing.keep(built, config)
-        return report.matrix_report(config.blade.source, given, built, nominal), built.reduced
+        return report.matrix_report(config.blade.source, imported, built, nominal), built.reduced
 
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
     speeds = max(_FEWEST_SPEEDS, config.reduction.accuracy_speeds)

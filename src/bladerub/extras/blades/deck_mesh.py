@@ -224,8 +224,8 @@ def _coordinates(cells: list[str], line: Line) -> list[float]:
 def _range(line: Line) -> range:
     numbers = [_whole(cell, line) for cell in line.cells()]
     if len(numbers) not in (2, 3) or min(numbers[2:], default=1) < 1:
-        right = "must be the first, the last and, if any, a step of 1 or more"
-        raise ValueError(f"{line.place}: has {line.text[:60]}, {right}")
+        rule = "must be the first, the last and, if any, a step of 1 or more"
+        raise ValueError(f"{line.place}: has {line.text[:60]}, {rule}")
     first, last, *step = numbers
     return range(first, last + 1, *step)
 

@@ -104,8 +104,8 @@ def check_joined(cells: np.ndarray) -> None:
     sizes = np.unique(connected(cells), return_counts=True)[1]
     if sizes.size > 1:
         fault = f"has {sizes.size} bodies that share no nodes, of {', '.join(map(str, sizes[:4]))} elements"
-        right = "must be one blade: merge nodes where they touch, or leave the others out"
-        raise ValueError(f"{fault}; {right}")
+        rule = "must be one blade: merge nodes where they touch, or leave the others out"
+        raise ValueError(f"{fault}; {rule}")
 
 
 def connected(cells: np.ndarray) -> np.ndarray:

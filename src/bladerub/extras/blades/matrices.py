@@ -64,20 +64,20 @@ def import_matrices(source: Source, reduction: Reduction) -> ImportedMatrices:
         n_internal = free.free.size - 3 * nodes.interface.size
         n_required = max(n_modes, reduction.modes_per_speed)
         if n_internal <= n_required:
-            right = f"must have more than {n_required}, the modes that are wanted"
-            raise ValueError(f"has {n_internal} free coordinates off the interface; {right}")
+            rule = f"must have more than {n_required}, the modes that are wanted"
+            raise ValueError(f"has {n_internal} free coordinates off the interface; {rule}")
 
     n, n_all = free.free.size, 3 * free.n_nodes
     rotation = kron(eye_array(n // 3), frame.turn, format="csc")
-    right = f"must have three rows for each of the {free.n_nodes} nodes of {NODES} ({n_all})"
-    right += f", or for each that is not clamped ({n})" if n < n_all else ""
+    rule = f"must have three rows for each of the {free.n_nodes} nodes of {NODES} ({n_all})"
+    rule += f", or for each that is not clamped ({n})" if n < n_all else ""
 
     def read(name: str) -> tuple[csc_array, csc_array]:
         """Read a matrix, and from it that of the free coordinates, in the blade's axes and SI units."""
         with naming(names[name]):
             whole = matrix_folder.read_matrix(names[name])
             if whole.shape[0] not in (n, n_all):
-                raise ValueError(f"is {whole.shape[0]} x {whole.shape[0]}; {right}")
+                raise ValueError(f"is {whole.shape[0]} x {whole.shape[0]}; {rule}")
             matrix = whole[free.free][:, free.free] if whole.shape[0] > n else whole
             return whole, csc_array(unit * (rotation @ matrix @ rotation.T))
 
@@ -164,8 +164,8 @@ def _layout(nodes: matrix_folder.Nodes, frame: Frame, tip_cone: float | None) ->
         first, second = twins[0] + 1
         raise ValueError(f"interface nodes {first} and {second} are in one place")
     if frame.downstream_x * (ends[-1, 0] - ends[0, 0]) <= 0:
-        right = f"must be at the leading edge: is downstream = {frame.downstream} the direction of the flow?"
-        raise ValueError(f"interface node 1 is downstream of node {len(ends)}; {right}")
+        rule = f"must be at the leading edge: is downstream = {frame.downstream} the direction of the flow?"
+        raise ValueError(f"interface node 1 is downstream of node {len(ends)}; {rule}")
     tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
     mesh = BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface)
     return measured(mesh, frame, tip_cone)

@@ -66,13 +66,13 @@ def files(folder: Path) -> dict[str, Path]:
 def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
     """Find the stiffness at each normalised speed, ascending; a ValueError names one without such a speed."""
     names_by_speed = dict(zip(fit, FIT, strict=True))
-    right = f"between 0 and reduction.f_omega_max = {fit[-1]:g}, and none that another file has"
+    rule = f"between 0 and reduction.f_omega_max = {fit[-1]:g}, and none that another file has"
     for name in names:
         if name.startswith(AT_SPEED):
             text = name.removeprefix(AT_SPEED)
             speed = float(text) if re.fullmatch(r"\d*\.?\d+", text) else None
             if speed is None or not fit[0] < speed < fit[-1] or speed in names_by_speed:
-                raise ValueError(f"{names[name].name}: must be named after its normalised speed, {right}")
+                raise ValueError(f"{names[name].name}: must be named after its normalised speed, {rule}")
             names_by_speed[speed] = name
     return dict(sorted(names_by_speed.items()))
 
@@ -101,10 +101,10 @@ def read_nodes(path: Path) -> Nodes:
 
 def _marks(table: Cells, name: str) -> np.ndarray:
     marks = table.numbers(name, empty=0.0)
-    right = f"must be a whole number from 0 to {_MARKS[name]}, or nothing"
+    rule = f"must be a whole number from 0 to {_MARKS[name]}, or nothing"
     for line, mark in zip(table.rows, marks, strict=True):
         if mark not in range(_MARKS[name] + 1):
-            raise ValueError(f"line {line}: {name} = {mark:g}: {right}")
+            raise ValueError(f"line {line}: {name} = {mark:g}: {rule}")
     return marks
 
 
@@ -125,8 +125,8 @@ def read_matrix(path: Path) -> sparse.csc_array:
     if rows > MOST_UNKNOWNS:
         raise ValueError(f"is {rows} x {rows}; must have {MOST_UNKNOWNS} rows or fewer")
     if size > limit:
-        need, most = size / 1e9, limit / 1e9
-        raise ValueError(f"takes {need:.2g} GB of memory for {rows} rows; must take {most:.2g} GB or less")
+        need, cap = size / 1e9, limit / 1e9
+        raise ValueError(f"takes {need:.2g} GB of memory for {rows} rows; must take {cap:.2g} GB or less")
     if raw.dtype.kind not in "iuf":
         raise ValueError(f"holds numbers of the type {raw.dtype}; must be real")
     entries = sparse.coo_array(raw)

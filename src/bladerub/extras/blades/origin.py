@@ -42,8 +42,8 @@ class Frame:
     def __post_init__(self):
         axis = self.rotation[-1]
         if self.downstream[-1] != axis:
-            right = f"must be along the axis of rotation, {axis} or -{axis}"
-            raise ValueError(f"downstream = {self.downstream}: {right}")
+            rule = f"must be along the axis of rotation, {axis} or -{axis}"
+            raise ValueError(f"downstream = {self.downstream}: {rule}")
         if self.radial[-1] == axis:
             raise ValueError(f"radial = {self.radial}: must not be the axis of rotation")
 

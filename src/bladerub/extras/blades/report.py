@@ -151,8 +151,8 @@ def _warn_of_frame(figures: dict[str, Any], source: Source, points: np.ndarray) 
         yield f"its middle is {place}: is that the right axis, and is the origin on the engine axis?"
     if stagger < LEAST_STAGGER:
         doubt = f"has rotation = {frame.rotation} or downstream = {frame.downstream} the wrong sign?"
-        behind = f"{-stagger:.3g} degrees behind its trailing edge in rotation"
-        yield f"the leading edge of the tip is {behind}: {doubt}"
+        lag = f"{-stagger:.3g} degrees behind its trailing edge in rotation"
+        yield f"the leading edge of the tip is {lag}: {doubt}"
 
 
 def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:

@@ -60,8 +60,8 @@ def check_change(stiffness: csc_array, stiffness_rest: csc_array, rows: np.ndarr
     bad = change > _CHANGED * size
     if bad.any():
         fault = f"differs from stiffness_rest by up to {(change / size).max():.0%} at {_named(rows[bad])}"
-        right = "both must have the same order and units, as rotation changes hundredths"
-        raise ValueError(f"{fault}; {right}")
+        rule = "both must have the same order and units, as rotation changes hundredths"
+        raise ValueError(f"{fault}; {rule}")
 
 
 def check_stiffness(
@@ -180,8 +180,8 @@ def _check_coordinates(matrix: csc_array, is_bad: Callable, rows: np.ndarray, fa
         order = np.arange(matrix.shape[0]).reshape(3, -1).T.ravel()  # from all x, then all y, then all z
         is_by_direction = not is_bad(matrix[order][:, order]).any()
         has = "it has all x, then all y, then all z" if is_by_direction else "are coordinates exchanged?"
-        right = f"must have x, y, z node by node, in the axes of nodes.csv: {has}"
-        raise ValueError(f"{fault} at {_named(rows[bad])}; {right}")
+        rule = f"must have x, y, z node by node, in the axes of nodes.csv: {has}"
+        raise ValueError(f"{fault} at {_named(rows[bad])}; {rule}")
 
 
 def _named(rows: np.ndarray) -> str:

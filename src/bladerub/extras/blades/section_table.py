@@ -45,8 +45,8 @@ def read(path: Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
     for name, group in groupby(range(len(names)), names.__getitem__):
         rows = [*group]
         if name in sections:
-            right = f"all its stations must follow line {sections[name].lines[0]}"
-            raise ValueError(f"line {lines[rows[0]]}: section {name} comes back; {right}")
+            rule = f"all its stations must follow line {sections[name].lines[0]}"
+            raise ValueError(f"line {lines[rows[0]]}: section {name} comes back; {rule}")
         values = {column: of_all[rows] for column, of_all in numbers.items()}
         label = f"section {name} (line {lines[rows[0]]})"
         sections[name] = Section(name, lines[rows], _points(label, lines[rows], values, frame, angle_unit))

@@ -80,20 +80,20 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
     if length == 0 or (steps <= 0).any():
         before, line = section.lines[np.argmin(steps) :][:2]
         fault = f"this station of section {section.name} is no further along the chord than that of line"
-        right = "they must go from the leading to the trailing edge, each section once, under its own name"
-        raise ValueError(f"line {line}: {fault} {before}; {right}")
+        rule = "they must go from the leading to the trailing edge, each section once, under its own name"
+        raise ValueError(f"line {line}: {fault} {before}; {rule}")
     if downstream_x * chord[0] < -1e-3 * length:
         label = f"section {section.name} (line {section.lines[0]})"
-        right = "must begin at the leading edge, or blade.source.downstream has the wrong sign"
-        raise ValueError(f"{label}: its first station lies downstream of its last; {right}")
+        rule = "must begin at the leading edge, or blade.source.downstream has the wrong sign"
+        raise ValueError(f"{label}: its first station lies downstream of its last; {rule}")
     thickness = _cross(np.gradient(middle, axis=0), flat[1] - flat[0])
     sign = 1 if thickness.sum() > 0 else -1
     bad = sign * thickness < -1e-9 * np.abs(thickness).max()
     bad[1:-1] |= thickness[1:-1] == 0
     if bad.any():
         fault = f"the sides of section {section.name} touch or cross here"
-        right = "they may meet at its first and last station only"
-        raise ValueError(f"line {section.lines[np.argmax(bad)]}: {fault}; {right}")
+        rule = "they may meet at its first and last station only"
+        raise ValueError(f"line {section.lines[np.argmax(bad)]}: {fault}; {rule}")
     return sign < 0
 
 

@@ -62,8 +62,8 @@ def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tupl
     if (back := np.diff(angle) <= 0).any():
         raise ValueError(f"line {lines[back.argmax() + 1]}: angle must be above that of the row before")
     if angle[-1] - angle[0] >= turn:
-        right = "must stay within a turn, without a row that repeats the first angle"
-        raise ValueError(f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; {right}")
+        rule = "must stay within a turn, without a row that repeats the first angle"
+        raise ValueError(f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; {rule}")
     if np.ptp(gap) == 0:
         raise ValueError(f"has the same gap everywhere, {gap[0]:g} m; must vary")
     steps = np.diff(angle, append=angle[0] + 2 * np.pi)

@@ -75,8 +75,8 @@ def _values(table: cells.Cells, column: str, stated: str | None, units: Mapping[
     unit = stated or units.get(column) or _DEFAULT.get(column)
     factors = UNITS[column]
     if unit not in factors:
-        problem, right = f"unit = {unit}" if unit else "has no unit", " or ".join(factors)
-        raise ValueError(f"column {column}: {problem}, must be {right}: {column} ({[*factors][-1]})")
+        problem, rule = f"unit = {unit}" if unit else "has no unit", " or ".join(factors)
+        raise ValueError(f"column {column}: {problem}, must be {rule}: {column} ({[*factors][-1]})")
     values = factors[unit] * table.numbers(column)
     bound = _MOST[column]
     bad = (np.abs(values) > bound) | ((values < 0) & (column != "stress"))

@@ -42,5 +42,5 @@ def reduce_to_tolerance(
         else:
             state = f"{errors.reduced_model:.2g} with {n_speeds} fit speeds and {n_modes} modes at each"
             reached = f"the reduced model comes to {state} (eq. (2) alone to {errors.speed_law:.2g})"
-            right = "must be more, or lower reduction.f_omega_max or reduction.rank_tolerance"
-            raise BadInput(f"reduction.tolerance = {tolerance:g}: {reached}; {right}")
+            rule = "must be more, or lower reduction.f_omega_max or reduction.rank_tolerance"
+            raise BadInput(f"reduction.tolerance = {tolerance:g}: {reached}; {rule}")

@@ -153,8 +153,8 @@ def simulate_blade_passes(
         per_time = rig.speed / sample.length
         wear = sample.mean(simulation.state.wear)
         forces = (normal * per_time, tangential * per_time, normal, tangential, largest_pressure)
-        worn_now = (wear, wear - worn, balance.wear - taken, rise, balance.residual)
-        passes.append((number, depth, *forces, *worn_now, math.cos(rig.theta) * largest, amplitude))
+        losses = (wear, wear - worn, balance.wear - taken, rise, balance.residual)
+        passes.append((number, depth, *forces, *losses, math.cos(rig.theta) * largest, amplitude))
         worn, taken = wear, balance.wear
     return pd.DataFrame(passes, columns=list(COLUMNS))
 
@@ -178,8 +178,8 @@ class _Sample:
         if count > (1 - _FED) * n_elements or self._first < 0 or self._last > n_elements:
             chord = float(np.ptp(row_of[:, centre])) * rig.track / n_elements
             free = (1 - _FED) * rig.track - chord
-            right = f"must be above 0 and at most {free:.3g}, to feed the blade where there is no coating"
-            raise ValueError(f"coated = {rig.coated:g}: {right}")
+            limits = f"must be above 0 and at most {free:.3g}, to feed the blade where there is no coating"
+            raise ValueError(f"coated = {rig.coated:g}: {limits}")
         self.length = count * rig.track / n_elements
         self._area = strip_width(blade) * rig.tip_length
         gap = np.full((n_elements, lanes), _FAR)

@@ -133,8 +133,8 @@ class Rig:
         if mistakes := list(problems(parameters, RigSettings)):
             raise ValueError("; ".join(mistakes))
         if self.incursion * self.passes >= self.thickness:
-            right = f"must be below {self.thickness / self.passes:g}, or the layer is through"
-            raise ValueError(f"incursion = {self.incursion:g}: {right}")
+            rule = f"must be below {self.thickness / self.passes:g}, or the layer is through"
+            raise ValueError(f"incursion = {self.incursion:g}: {rule}")
         for name in ("tip_length", "coated"):
             if (length := getattr(self, name)) > self.track:
                 raise ValueError(f"{name} = {length:g}: must be at most the track, {self.track:g}")
