@@ -153,8 +153,8 @@ def simulate_blade_passes(
         per_time = rig.speed / sample.length
         wear = sample.mean(simulation.state.wear)
         forces = (normal * per_time, tangential * per_time, normal, tangential, largest_pressure)
-        wear_columns = (wear, wear - worn, balance.wear - taken, rise, balance.residual)
-        passes.append((number, depth, *forces, *wear_columns, math.cos(rig.theta) * largest, amplitude))
+        losses = (wear, wear - worn, balance.wear - taken, rise, balance.residual)
+        passes.append((number, depth, *forces, *losses, math.cos(rig.theta) * largest, amplitude))
         worn, taken = wear, balance.wear
     return pd.DataFrame(passes, columns=list(COLUMNS))
 

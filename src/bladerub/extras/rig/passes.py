@@ -60,18 +60,8 @@ def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> p
         normal = math.cos(rig.theta) * tip_force
         tangential = math.sin(rig.theta) * tip_force + energy / width
         impulses = (normal * coated / rig.speed, tangential * coated / rig.speed)
-        wear_columns = (worn, worn - wear, energy * coated / width)
-        row = (
-            number,
-            depth,
-            normal,
-            tangential,
-            *impulses,
-            forces.max() / area,
-            *wear_columns,
-            rise,
-            residual,
-        )
+        losses = (worn, worn - wear, energy * coated / width)
+        row = (number, depth, normal, tangential, *impulses, forces.max() / area, *losses, rise, residual)
         rows.append(row)
         wear = worn
     return pd.DataFrame(rows, columns=list(COLUMNS))
