@@ -13,7 +13,7 @@ from bladerub.extras.law_reading import parameters_in
 from bladerub.io.errors import BadInput
 from bladerub.settings.fields import Form, Omitted, Section, Unit, disagreement
 
-PARAMETER: dict[str, Any] = {"action": "append", "default": [], "metavar": "NAME=VALUE"}
+PARAMETER: dict[str, Any] = {"action": "append", "default": [], "metavar": "NAME=VALUE"}  # of their option
 
 
 class Law(Section):
