@@ -67,24 +67,13 @@ def make_result(angle):
         peak[:begun] = np.nanmax(np.abs(each), axis=1)
         half_range[:begun] = (np.nanmax(each, axis=1) - np.nanmin(each, axis=1)) / 2
         lobe = np.clip(np.cos(order * angle), 0, None)
-        return RunResult(
-            status="completed" if complete is None else "unbounded",
-            message="for a test",
-            angle=angle,
-            wear=depth * np.linspace(1, 0.5, 8)[:, None] * lobe,
-            radial_displacement=displacement,
-            revolution_peak=peak,
-            revolution_amplitude=half_range,
-            time_step=2e-7,
-            n_steps=1000,
-            n_reversed_steps=0,
-            slowest_sliding=0.9,
-            n_fallback_steps=0,
-            n_unconverged_steps=0,
-            n_contact_steps=300,
-            n_modes=24,
-            energy=Energy(*np.arange(1.0, 14.0)),
-        )
+        told = {"status": "completed" if complete is None else "unbounded", "message": "for a test"}
+        worn = {"angle": angle, "wear": depth * np.linspace(1, 0.5, 8)[:, None] * lobe}
+        motion = {"radial_displacement": displacement, "revolution_peak": peak}
+        motion |= {"revolution_amplitude": half_range, "time_step": 2e-7, "slowest_sliding": 0.9}
+        counts = dict.fromkeys(("n_reversed_steps", "n_fallback_steps", "n_unconverged_steps"), 0)
+        counts |= {"n_steps": 1000, "n_contact_steps": 300, "n_modes": 24}
+        return RunResult(**told, **worn, **motion, **counts, energy=Energy(*np.arange(1.0, 14.0)))
 
     return make
 
@@ -107,22 +96,13 @@ def make_map(angle):
         envelope = response[:, None] * (1 + np.broadcast_to(growth, n)[:, None]) ** np.arange(20)
         lobes = np.broadcast_to(lobes, n).copy()
         wear = 1e-4 * (1 + np.cos(lobes[:, None] * angle)).astype(np.float32)
-        return CoatingMap(
-            case=case,
-            f_omega=f_omega,
-            C1=np.sqrt(1 + 3 * f_omega**2),
-            angle=angle,
-            wear=wear,
-            wear_node=np.repeat(wear[:, None], 8, axis=1),
-            spectrum_order=order,
-            spectrum_amplitude=amplitude,
-            revolution_peak=envelope + 1e-3,
-            revolution_amplitude=envelope,
-            confirmation_amplitude=np.empty((n, 0)) if longer is None else longer,
-            max_wear=0.5 * response,
-            lobes=lobes,
-            status=np.broadcast_to(status, n).astype(str),
-        )
+        worn = {"angle": angle, "wear": wear, "wear_node": np.repeat(wear[:, None], 8, axis=1)}
+        worn |= {"max_wear": 0.5 * response, "lobes": lobes}
+        motion = {"spectrum_order": order, "spectrum_amplitude": amplitude}
+        motion |= {"revolution_peak": envelope + 1e-3, "revolution_amplitude": envelope}
+        motion["confirmation_amplitude"] = np.empty((n, 0)) if longer is None else longer
+        status = np.broadcast_to(status, n).astype(str)
+        return CoatingMap(case, f_omega, np.sqrt(1 + 3 * f_omega**2), **worn, **motion, status=status)
 
     return make
 

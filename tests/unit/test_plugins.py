@@ -83,6 +83,7 @@ def test_a_folder_adds_nothing_without_what_it_needs(monkeypatch, tmp_path):
         (tmp_path / path.parent.name).mkdir()
         (tmp_path / path.parent.name / "plugin.py").touch()
     shutil.rmtree(tmp_path / "rows")
+    assert "rows of blades" in plugins.offered("INVENTORIES")
     monkeypatch.setattr(plugins, "EXTRAS", tmp_path)
     assert "rows of blades" not in plugins.offered.__wrapped__("INVENTORIES")
     assert "columns" in plugins.offered.__wrapped__("MANIFESTS")

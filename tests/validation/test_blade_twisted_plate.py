@@ -15,9 +15,8 @@ Published values, each with where it was read:
 - Rotating plate, Carnegie (J. Mech. Eng. Sci. 1 (1959) 239). Read in verification case VM54 of ansys/pymapdl,
   `src/ansys/mapdl/core/examples/verif/vm54.dat`.
 
-The tables of twisted plates of Leissa, MacBain and Kielb (1984) and of Kielb, Leissa and MacBain (1985) were
-not at hand. Twisted plates of the proportions of that family are compared with a Ritz solution instead,
-which is first made to return the values of FV16.
+Twisted plates of the proportions of Leissa, MacBain and Kielb (1984), whose tables were not at hand, are
+compared with a Ritz solution, which is first made to return the values of FV16.
 """
 
 import runpy

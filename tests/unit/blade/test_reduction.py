@@ -1,11 +1,121 @@
+import multiprocessing
+
 import numpy as np
 import pytest
 from scipy import sparse
 from scipy.linalg import eigh
 
-from bladerub.blade.linear import factorise, lowest_modes
+from bladerub.blade import linear
+from bladerub.blade.linear import PreconditionedCG, factorise, lowest_modes
 from bladerub.blade.reduction import Partition, internal_solve, mass_orthonormal, project, transformation
 from bladerub.blade.rotation import equilibrium
+
+
+@pytest.fixture
+def pair():
+    rng = np.random.default_rng(3)
+    n = 60
+    springs = rng.uniform(1, 5, n + 1)
+    stiffness = sparse.diags_array(
+        [springs[:-1] + springs[1:], -springs[1:-1], -springs[1:-1]], offsets=[0, 1, -1]
+    )
+    return stiffness.tocsc(), sparse.diags_array(rng.uniform(0.5, 2, n)).tocsc()
+
+
+def test_a_large_matrix_is_solved_to_the_same_bits_by_any_threads(pair, monkeypatch):
+    grid = sparse.csc_array(sparse.kronsum(sparse.kronsum(pair[0][:20, :20], pair[0][:20, :20]), pair[0]))
+    rhs = np.random.default_rng(0).standard_normal((grid.shape[0], 4))
+    both = factorise(grid)(rhs)
+    np.testing.assert_allclose(grid @ both, rhs, atol=1e-12)
+    np.testing.assert_allclose(factorise(grid)(rhs[:, 0]), both[:, 0], atol=1e-12)
+    monkeypatch.setattr(linear, "THREADS", 1)
+    np.testing.assert_array_equal(factorise(grid)(rhs), both)
+
+
+def test_a_fork_solves_as_well(pair):
+    """The threads of the solver are not in it: a job of a pool of processes once waited for ever."""
+
+    def solve_in_fork():
+        rhs = np.ones(60)
+        np.testing.assert_allclose(pair[0] @ factorise(pair[0])(rhs), rhs, atol=1e-12)
+
+    factorise(pair[0])
+    process = multiprocessing.get_context("fork").Process(target=solve_in_fork)
+    process.start()
+    process.join(30)
+    process.kill()
+    assert process.exitcode == 0
+
+
+def test_lowest_modes_agree_with_a_dense_solver(pair):
+    stiffness, mass = pair
+    frequencies, modes = lowest_modes(stiffness, mass, 5)
+    squares = eigh(stiffness.toarray(), mass.toarray(), eigvals_only=True)[:5]
+    np.testing.assert_allclose((2 * np.pi * frequencies) ** 2, squares, rtol=1e-10)
+    np.testing.assert_allclose(modes.T @ (mass @ modes), np.eye(5), atol=1e-12)
+    again = lowest_modes(stiffness, mass, 5, factorise(stiffness))[1]
+    np.testing.assert_array_equal(modes, again)
+    lowest = 2 * np.pi * frequencies[0]
+    unstable = sparse.csc_array(stiffness - 2 * lowest**2 * mass)  # has a negative frequency
+    assert 2 * np.pi * lowest_modes(unstable, mass, 2)[0][0] == pytest.approx(-lowest, rel=1e-9)
+
+
+@pytest.fixture
+def near(make_block):
+    bar = make_block(size=(0.02, 0.01, 0.3), counts=(1, 1, 6), origin=(0.01, 0.0, 0.3), clamp_bottom=True)
+    u = np.random.default_rng(2).standard_normal(bar.free.size)
+    rest, strained = bar.tangent(np.zeros_like(u)), bar.tangent(2e-6 * u)
+    return rest, bar.mass, factorise(rest), strained
+
+
+@pytest.fixture
+def factored(monkeypatch):
+    made = []
+    monkeypatch.setattr(linear, "factorise", lambda matrix: made.append(matrix) or factorise(matrix))
+    return made
+
+
+def test_near_factors_solve_for_one_and_for_many(near, factored):
+    *_, factors, strained = near
+    rhs = np.random.default_rng(0).standard_normal((strained.shape[0], 3))
+    exact = factorise(strained)(rhs)
+    assert np.linalg.norm(factors(rhs) - exact) > 1e-3 * np.linalg.norm(exact)
+    for columns in (slice(None), 0):
+        error = PreconditionedCG(strained, factors)(rhs[:, columns]) - exact[:, columns]
+        assert np.linalg.norm(error) < 1e-7 * np.linalg.norm(exact)
+    assert not factored
+
+
+def test_modes_come_from_those_of_a_near_matrix(near, factored):
+    rest, mass, factors, strained = near
+    _, start = linear.lowest_modes(rest, mass, 5, factors)
+    frequencies, modes = PreconditionedCG(strained, factors).lowest_modes(mass, start)
+    squares, before_squares = (
+        eigh(matrix.toarray(), mass.toarray(), eigvals_only=True) for matrix in (strained, rest)
+    )
+    rounding = np.finfo(float).eps * squares[-1] / squares[0]  # of the dense solver, in the lowest square
+    exact, before = (np.sqrt(of[:5]) / (2 * np.pi) for of in (squares, before_squares))
+    assert np.abs(before / exact - 1).max() > 1e-5
+    np.testing.assert_allclose(frequencies, exact, rtol=max(1e-9, rounding))
+    np.testing.assert_allclose(modes.T @ (mass @ modes), np.eye(5), atol=1e-10)
+    assert not factored
+
+
+def test_a_matrix_that_is_not_near_gets_its_own_factors(near, factored):
+    rest, mass, factors, _ = near
+    frequencies, start = linear.lowest_modes(rest, mass, 3, factors)
+    unstable = sparse.csc_array(rest - (2 * np.pi * 1.1 * frequencies[0]) ** 2 * mass)
+    rhs = np.ones(rest.shape[0])
+    solve = PreconditionedCG(unstable, factors)
+    for _ in range(2):
+        np.testing.assert_allclose(solve(rhs), factorise(unstable)(rhs), rtol=1e-8)
+    assert len(factored) == 1
+    strange = np.random.default_rng(1).standard_normal(start.shape)
+    far = sparse.csc_array(sparse.diags_array(np.geomspace(1, 1e9, rest.shape[0])) @ rest)
+    far = sparse.csc_array(far + far.T)
+    found, _ = PreconditionedCG(far, factors).lowest_modes(mass, strange)
+    np.testing.assert_allclose(found, linear.lowest_modes(far, mass, 3)[0], rtol=1e-7)
+
 
 ETA = 4
 

@@ -55,14 +55,12 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatc
     study = study.replaced("results", str(tmp_path)).replaced("solver.revolutions", 3600)
     study = study.replaced("analysis.divergence.confirmation_revolutions", 7200)
     jobs = [("blade", None), *JOBS, ("fig11_Y4", None)]
-    costs = costs_of(study)
-    runs = 0.6 * sum(costs.runs.values()) + sum(costs.further["ensemble"].values())
-    revolutions = 3600 + GROWING * 3600
-    seconds = runs * revolutions * SECONDS_PER_REVOLUTION + 8 * SECONDS_PER_JOB + SECONDS_AT_FIRST["blade"]
     line = forecast(study, jobs)
-    numbers = re.findall(r"\d+", line.replace(",", ""))
-    assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
-    assert costs.further["ensemble"][JOBS[0][1]] > 0
+    *numbers, minutes = re.findall(r"\d+", line.replace(",", ""))
+    assert numbers == ["120", "200", "8"]
+    longer = forecast(study.replaced("solver.revolutions", 7200), jobs).replace(",", "")
+    assert int(re.findall(r"\d+", longer)[-1]) > 1.3 * int(minutes) > 10
+    assert costs_of(study).further["ensemble"][JOBS[0][1]] > 0
     assert forecast(study, JOBS[:1]).startswith("60 of 200 runs of the study are to be computed; 1 job, ")
     assert "those of 1 coating beside it" in forecast(study, [("coating", "2nd_E3_K0.5_theta0")])
     chart = forecast(study, [("chart_column", None)], simulating={"chart_column", "coating"})

@@ -76,26 +76,16 @@ def drawn_spec(rng, law):
     change, spec = stand_in.change.__wrapped__(), stand_in.spec.__wrapped__()
     rigid = law.name == "plastic" and rng.random() < 0.25
     E = np.inf if rigid else 10 ** rng.uniform(-1, 3)
-    return change(
-        spec,
-        E=E,
-        K=np.inf if rigid else E * rng.uniform(0.1, 1.0),
-        theta=rng.choice([0.0, rng.uniform(0.0, 0.3)]),
-        law=str(rng.choice(["theta", "coulomb"])),
-        element_law=law,
-        n_elements=int(rng.integers(24, 400)),
-        half_width=rng.uniform(0.3, 4.0),
-        turns=bool(rng.random() < 0.3),
-        amplitude=10 ** rng.uniform(-4, -2),
-        interference=10 ** rng.uniform(-5, -2),
-        displacement_limit=10 ** rng.uniform(-4, 0),
-        initial_displacement=float(rng.choice([0.0, 1e-4])),
-        start_angle=rng.uniform(-7, 7),
-        f_omega=rng.uniform(0.05, 0.4),
-        scheme=str(rng.choice(["exponential", "exponential", "central_differences"])),
-        steps_per_element=int(rng.integers(1, 40)),
-        max_time_step=1e-5,
-    )
+    run = {"E": E, "K": np.inf if rigid else E * rng.uniform(0.1, 1.0)}
+    run |= {"theta": rng.choice([0.0, rng.uniform(0.0, 0.3)]), "law": str(rng.choice(["theta", "coulomb"]))}
+    run |= {"n_elements": int(rng.integers(24, 400)), "half_width": rng.uniform(0.3, 4.0)}
+    run |= {"turns": bool(rng.random() < 0.3), "amplitude": 10 ** rng.uniform(-4, -2)}
+    run |= {"interference": 10 ** rng.uniform(-5, -2), "displacement_limit": 10 ** rng.uniform(-4, 0)}
+    run |= {"initial_displacement": float(rng.choice([0.0, 1e-4])), "start_angle": rng.uniform(-7, 7)}
+    run |= {"f_omega": rng.uniform(0.05, 0.4)}
+    run |= {"scheme": str(rng.choice(["exponential", "exponential", "central_differences"]))}
+    run |= {"steps_per_element": int(rng.integers(1, 40)), "max_time_step": 1e-5}
+    return change(spec, element_law=law, **run)
 
 
 def main(runs, seed, most_nodes, names):
