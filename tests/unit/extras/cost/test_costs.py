@@ -5,10 +5,6 @@ from study_fixtures import changed
 
 from bladerub.extras import inventory
 from bladerub.extras.cores import (
-    GROWING,
-    SECONDS_AT_FIRST,
-    SECONDS_PER_JOB,
-    SECONDS_PER_REVOLUTION,
     Costs,
     costs_of,
 )
