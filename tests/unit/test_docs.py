@@ -158,7 +158,6 @@ def test_every_function_of_the_index_bears_its_tag():
 @pytest.mark.parametrize(
     ("page", "site", "text", "followed"),
     [
-        (HOW_TO, HOW_TO, "[a](../config.md#units)", "[a](../config.md#units)"),
         (HOW_TO, HOW_TO, "[a](../../studies/chart/README.md#accuracy)", "[a](../notes/chart.md#accuracy)"),
         (HOW_TO, HOW_TO, "[a](../../studies/of_nobody/README.md#accuracy) b", "a b"),
         (HOW_TO, HOW_TO, "[a](../gallery/07_own_law.py)", "[a](../auto_gallery/07_own_law.rst)"),

@@ -12,7 +12,7 @@ from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras.heat import LAYER
 from bladerub.extras.law_reading import described_law, parameters_of
 from bladerub.extras.laws import plugin
-from bladerub.extras.laws.heating import CELLS, HEATED, Layer, cell_heights
+from bladerub.extras.laws.heating import HEATED, Layer
 
 AREA, STEP, WORN = 1e-6, 1e-6, 1e-5
 THERMAL = described_law("thermal", LAYER | {"heated_depth": 5e-4, "softening_rise": 20.0})
@@ -143,17 +143,6 @@ def heated(flow=0.0, friction=0.0):
     state = module_for(8, "contact.kernel.records", law).at_rest(1, N)
     state.taken[3:6] = np.repeat([flow, friction], 8)
     return state
-
-
-def test_cells_fill_the_layer_from_the_heated_depth_on():
-    height = cell_heights(THICKNESS, 1e-4)
-    assert height.size == CELLS
-    assert height[:HEATED].sum() == pytest.approx(1e-4)
-    assert height.sum() == pytest.approx(THICKNESS)
-    ratio = height[1:] / height[:-1]
-    np.testing.assert_allclose(ratio[: HEATED - 1], 1)
-    np.testing.assert_allclose(ratio[HEATED - 1 :], ratio[-1])
-    assert ratio[-1] > 1
 
 
 def test_without_conduction_all_heat_stays_in_the_heated_depth_and_cells_are_in_series():
