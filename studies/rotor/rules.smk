@@ -77,7 +77,7 @@ rule rotor_patterns:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         plan=ROTOR,
-        computing=files_behind("extras.rotor.pattern"),
+        computing=files_behind("extras.rotor.summary"),
     output:
         **described(
             table=f"{TABLES}/rotor_patterns.csv",

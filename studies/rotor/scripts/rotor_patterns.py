@@ -5,11 +5,11 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras.rotor import pattern
 from bladerub.extras.rotor.plan import read_plan
+from bladerub.extras.rotor.summary import drifts, patterns
 from bladerub.settings.study import typed
 
 config = typed(snakemake.config)
 plan = read_plan(snakemake.input.plan, config)
-followed = pattern.table(config, read_reduced_blade(snakemake.input.blade), plan)
-outputs.save(snakemake, table=followed, drift=pattern.drifts(followed))
+followed = patterns(config, read_reduced_blade(snakemake.input.blade), plan)
+outputs.save(snakemake, table=followed, drift=drifts(followed))

@@ -7,9 +7,8 @@ import pytest
 
 from bladerub.config.errors import ConfigError
 from bladerub.extras.plots.rotor import rotor
-from bladerub.extras.rotor import pattern, summary
-from bladerub.extras.rotor.plan import Combination, Plan, read_plan
-from bladerub.extras.rotor.settings import Patterns
+from bladerub.extras.rotor import summary
+from bladerub.extras.rotor.plan import Combination, Patterns, Plan, read_plan
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import CoatingCase
 
@@ -56,7 +55,8 @@ def test_the_distribution_of_known_draws():
     values = np.random.default_rng(1).permutation(np.arange(1, 200) / 100)
     harmonic = np.where(np.arange(199) < 150, 2, 4)
     status = np.where(np.arange(199) < 20, "unbounded", "completed")
-    draws = pd.DataFrame(dict.fromkeys(summary.DRAWS, 1.0) | {"longest_share": np.nan}, index=range(199))
+    names = [*summary.WHAT, *summary.MEASURED, "draw", "divergent", "lobes", "energy_residual"]
+    draws = pd.DataFrame(dict.fromkeys(names, 1.0) | {"longest_share": np.nan}, index=range(199))
     draws = draws.assign(casing="2nd", status=status, amplification=values, wear_harmonic=harmonic)
     found = summary.combinations(draws).iloc[0]
     assert found.amplification_median == pytest.approx(1.0)
@@ -70,10 +70,11 @@ def test_the_distribution_of_known_draws():
 
 
 def test_rows_that_leave_the_limit_before_the_first_look_are_counted(config, monkeypatch):
-    monkeypatch.setattr(pattern, "simulate_row", lambda *described: SimpleNamespace(unbounded=(1,)))
+    early = SimpleNamespace(unbounded=(1,))
+    monkeypatch.setattr("bladerub.extras.rows.row.simulate_row", lambda *described: early)
     followed = Counter({Combination(CASE, 0.346, 4, 5e-5): 3})
     plan = Plan(1, Counter(), Counter(), followed, Patterns.model_construct(harmonic=4, interval=2))
-    (drift,) = pattern.drifts(pattern.table(config, None, plan)).to_dict("records")
+    (drift,) = summary.drifts(summary.patterns(config, None, plan)).to_dict("records")
     assert (drift["rows"], drift["followed_rows"]) == (3, 0)
     assert np.isnan(drift["pattern_drift_median"])
     assert rotor(plan, pd.DataFrame()).texts  # of no rows
@@ -84,7 +85,7 @@ def test_the_pattern_that_a_row_wears_is_looked_at_every_few_revolutions(config,
         Counter({Combination(CASE, 0.2, 2, 5e-5): 1}),
         Patterns.model_construct(harmonic=2, interval=9),
     )
-    table = pattern.table(config, blade, Plan(1, Counter(), Counter(), followed, looks))
+    table = summary.patterns(config, blade, Plan(1, Counter(), Counter(), followed, looks))
     assert table.revolution.tolist() == [9, 18]
     assert (table.pattern_depth > 1e-9).all()
 
@@ -98,8 +99,8 @@ def test_the_drift_of_lobes_that_turn_evenly_is_their_rate(rate):
         return 2e-3 + 1e-4 * np.cos(3 * (angle - lobe)) + 1e-3 * np.cos(2 * angle)
 
     revolution = np.arange(1, 41)  # turns by more than the distance of two lobes
-    parts = np.array([pattern.component(angle, worn(0.3 + rate * at), 3) for at in revolution])
+    parts = np.array([summary.component(angle, worn(0.3 + rate * at), 3) for at in revolution])
     assert np.abs(parts) == pytest.approx(1e-4)
-    lobe = pattern.lobe_angle(parts, 3)
+    lobe = summary.lobe_angle(parts, 3)
     assert np.diff(lobe) == pytest.approx(rate)
-    assert pattern.drift_rate(revolution, lobe, np.abs(parts)) == pytest.approx(rate)
+    assert summary.drift_rate(revolution, lobe, np.abs(parts)) == pytest.approx(rate)

@@ -1,5 +1,6 @@
-"""Tables of rows: what each draw did, and the distribution over the draws of a combination."""
+"""Tables of rows: what each draw did, the distribution over those of a combination, patterns of the wear."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -7,9 +8,15 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binom
 
-from bladerub.extras.rotor.plan import Combination, Plan, described
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.spec import RunSpec
+from bladerub.contact.strips import element_angle
+from bladerub.extras.rotor.plan import Combination, Patterns, Plan, described
+from bladerub.extras.rows.spec import Row
 from bladerub.extras.rows.study import OF_BLADES
 from bladerub.settings.analysis import Analysis
+from bladerub.settings.study import Config
+from bladerub.study.grid import run_spec
 from bladerub.study.growth import judge
 from bladerub.study.manifest import read_manifest
 from bladerub.study.store import read_run
@@ -19,37 +26,29 @@ WHAT = ["casing", "E", "K", "theta", "f_omega", "blades"]
 WHAT += ["length_scatter", "frequency_scatter", "coupling"]
 """Columns that name a combination, as `bladerub.extras.rotor.plan.described` does."""
 
-DRAWS = [*WHAT, "draw", "status", "n_unbounded", "row_amplitude", "amplification", "longest_amplification"]
-DRAWS += ["longest_share", "largest_share", "max_wear", "wear_harmonic", "wear_harmonic_share", "lobes"]
-DRAWS += ["divergent", "energy_residual"]
-"""Columns of the table of draws."""
+MEASURED = ["row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share"]
+MEASURED += ["wear_harmonic_share"]
+"""Columns of draws whose distribution is of interest."""
 
-COLUMNS = [*WHAT, "rows", "unbounded_rows", "divergent_rows"]
-_MEASURED = ("row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share")
-_MEASURED += ("wear_harmonic_share",)
 _STATISTICS = ("median", "low", "high", "p05", "p95")
-COLUMNS += [f"{name}_{statistic}" for name in _MEASURED for statistic in _STATISTICS]
+COLUMNS = [*WHAT, "rows", "unbounded_rows", "divergent_rows"]
+COLUMNS += [f"{name}_{statistic}" for name in MEASURED for statistic in _STATISTICS]
 COLUMNS += ["wear_harmonic", "wear_harmonic_rows", "lobes_lowest", "lobes_highest", "energy_residual"]
 """Columns of the table of combinations."""
 
 
 def draws(plan: Plan, folder: str | Path, analysis: Analysis) -> pd.DataFrame:
-    """List every draw of `plan`, whose runs are in `folder`: a row each, with `DRAWS`.
-
-    Lobes are counted and growth is judged by ``config.analysis``. Raises `OSError`, naming the file, if a
-    run is missing or damaged.
-    """
-    single: dict[Combination, float] = {}  # amplitudes of single nominal blades, which are read first
-    rows = []
+    """List every draw of `plan`, whose runs are in `folder`: a row each."""
+    single, rows = {}, []  # amplitudes of single nominal blades, which are read first
     for combination in sorted(plan.draws, key=lambda combination: combination.blades):
         runs = Path(folder) / combination.name
         for draw, listed in enumerate(read_manifest(runs / "manifest.tsv")):
             of_draw = _measure(runs / listed.file, analysis)
             nominal = single.setdefault(combination.alone, of_draw["row_amplitude"])
-            of_draw["amplification"] = of_draw["row_amplitude"] / nominal
-            of_draw["longest_amplification"] = of_draw.pop("longest_amplitude") / nominal
+            of_draw["amplification"] /= nominal
+            of_draw["longest_amplification"] /= nominal
             rows.append(described(combination) | {"draw": draw} | of_draw)
-    return pd.DataFrame(rows)[DRAWS]
+    return pd.DataFrame(rows)
 
 
 def _measure(path: Path, analysis: Analysis) -> dict[str, Any]:
@@ -65,7 +64,8 @@ def _measure(path: Path, analysis: Analysis) -> dict[str, Any]:
         "status": run.attributes["status"],
         "n_unbounded": int(data["blade_unbounded"].sum()),
         "row_amplitude": float(np.fmax.reduce(amplitude)),
-        "longest_amplitude": float(some * amplitude[longest]),
+        "amplification": float(np.fmax.reduce(amplitude)),  # over 1 m here and in the next line
+        "longest_amplification": float(some * amplitude[longest]),
         "longest_share": float(some * share[longest]),
         "largest_share": float(share.max()),
         "max_wear": float(data["wear"].max()),
@@ -81,8 +81,7 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
     """Sum up the `table` of `draws`: a row for each combination, with `COLUMNS`.
 
     Of each measure the median over the draws with its 95 % interval (``low``, ``high``), which holds whatever
-    the distribution, and the 5 and 95 % quantiles. The amplitude of a row that ended early is that of its
-    last revolutions, as far as they were made.
+    the distribution, and the 5 and 95 % quantiles.
     """
     rows = []
     for what, of_what in table.groupby(WHAT, sort=False):
@@ -98,9 +97,9 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
             "wear_harmonic_rows": int(counts.iloc[0]),
             "energy_residual": float(of_what["energy_residual"].max()),
         }
-        for name in _MEASURED:
-            values = zip(_STATISTICS, _statistics(of_what[name].dropna().to_numpy()), strict=True)
-            row |= {f"{name}_{statistic}": value for statistic, value in values}
+        for name in MEASURED:
+            values = _statistics(of_what[name].dropna().to_numpy())
+            row |= dict(zip((f"{name}_{statistic}" for statistic in _STATISTICS), values, strict=True))
         rows.append(row)
     return pd.DataFrame(rows, columns=COLUMNS)
 
@@ -129,3 +128,69 @@ def label(combination: Combination) -> str:
         f"{combination.blades}: {1e6 * combination.length_scatter:g} µm, "
         f"{100 * combination.frequency_scatter:g} %{coupled}"
     )
+
+
+def patterns(config: Config, blade: ReducedBlade, plan: Plan) -> pd.DataFrame:
+    """Follow the pattern that each row wears, whether it turns around the casing: a line an interval."""
+    lines = []
+    for combination, n_draws in plan.followed.items():
+        spec = run_spec(config, combination.case, combination.f_omega)
+        for draw in range(n_draws):
+            what = described(combination) | {"draw": draw, "pattern_harmonic": plan.patterns.harmonic}
+            row = plan.row(combination, draw)
+            lines += [what | line for line in _of_row(blade, spec, row, plan.patterns)]
+    return pd.DataFrame(lines)
+
+
+def _of_row(blade: ReducedBlade, spec: RunSpec, row: Row, patterns: Patterns) -> list[dict[str, float]]:
+    """Look at the wear every few revolutions, within the displacement limit; one NaN if never there."""
+    from bladerub.extras.rows.row import simulate_row  # loads the compiler, which the tables do without
+
+    ends, wear = [], [np.zeros(spec.coating.n_elements)]
+    for last in range(patterns.interval, spec.revolutions + 1, patterns.interval):
+        # a shorter run is the beginning of the longer one, bit by bit
+        result = simulate_row(blade, replace(spec, revolutions=last), row)
+        if result.unbounded:
+            break
+        ends.append(last)
+        wear.append(result.wear.mean(axis=0))
+    angle = element_angle(spec.coating.n_elements)
+    coefficients = [component(angle, worn, patterns.harmonic) for worn in np.diff(wear, axis=0)]
+    if not ends:
+        ends, coefficients = [patterns.interval], [np.nan]
+    lobe, depth = lobe_angle(np.array(coefficients), patterns.harmonic), np.abs(coefficients)
+    drift = drift_rate(np.array(ends), lobe, depth)
+    return [
+        {"revolution": end, "pattern_angle": position, "pattern_depth": deep, "pattern_drift": drift}
+        for end, position, deep in zip(ends, lobe, depth, strict=True)
+    ]
+
+
+def component(angle: np.ndarray, depth: np.ndarray, harmonic: int) -> complex:
+    """Find c of ``depth = … + Re(c exp(i harmonic angle))``; `depth` (n,), m, at even angles (n,), rad."""
+    return complex(2 * np.mean(depth * np.exp(-1j * harmonic * angle)))
+
+
+def lobe_angle(coefficients: np.ndarray, harmonic: int) -> np.ndarray:
+    """Find where a lobe of each `component` is, rad: the nearest of its lobes to where it was before."""
+    return np.unwrap(-np.angle(coefficients)) / harmonic
+
+
+def drift_rate(revolution: np.ndarray, angle: np.ndarray, depth: np.ndarray) -> float:
+    """Find the rate at which lobes move, rad a revolution, positive with the rotation; NaN of fewer than 3.
+
+    The least-squares slope of `angle` over `revolution`, weighted by what was worn off in each interval.
+    """
+    if revolution.size < 3 or not depth.any():
+        return np.nan
+    return float(np.polyfit(revolution, angle, 1, w=np.sqrt(depth))[0])
+
+
+def drifts(followed: pd.DataFrame) -> pd.DataFrame:
+    """Sum up `patterns`: median, 5 and 95 % quantile of the drift over the draws of each combination."""
+    of_rows = followed.drop_duplicates([*WHAT, "draw"])
+    drift = of_rows.groupby([*WHAT, "pattern_harmonic"], sort=False)["pattern_drift"]
+    quantiles = {"median": 0.5, "p05": 0.05, "p95": 0.95}.items()
+    summary = pd.DataFrame({f"pattern_drift_{name}": drift.quantile(level) for name, level in quantiles})
+    summary["rows"], summary["followed_rows"] = drift.size(), drift.count()
+    return summary.reset_index()
