@@ -12,7 +12,7 @@
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
 
@@ -62,10 +62,8 @@ class RowResult:
     @property
     def energy(self) -> Energy:
         """The ledgers of all blades together."""
-        ledgers = [blade.energy for blade in self.blades]
-        return Energy(
-            **{entry.name: sum(getattr(ledger, entry.name) for ledger in ledgers) for entry in fields(Energy)}
-        )
+        names = [entry.name for entry in fields(Energy)]
+        return Energy(*(sum(getattr(blade.energy, name) for blade in self.blades) for name in names))
 
     @property
     def residual(self) -> float:
@@ -82,10 +80,8 @@ def simulate_row(
 
     `blade` is the nominal one. A row of one nominal blade at angle 0 makes the run of
     `bladerub.contact.run.simulate`, to the last bit. `progress` is called with the number of revolutions done
-    after each of them. Raises `ValueError` as `simulate`; and if neighbours are so close that they could
-    meet, a blade is so long that it touches all around the casing or does not vibrate by its damping, or the
-    disk couples modes that the scheme does not resolve, that are too fast for its impulses or that it makes
-    unstable.
+    after each of them. Raises `ValueError` as `simulate`; and if blades could meet, touch all around the
+    casing or do not vibrate, or the disk couples modes that are not resolved, too fast or unstable.
     """
     modes, seats, simulation = set_up_row(blade, spec, row)
     stored = partial(_stored, row, modes, seats)
@@ -93,16 +89,12 @@ def simulate_row(
     _march(spec, seats, simulation, progress)
     results = tuple(seat.history.run_result(blade, seat.spec, seat.rule, seat.simulation) for seat in seats)
     unbounded = tuple(number for number, result in enumerate(results, 1) if result.status == "unbounded")
-    status, message = results[0].status, results[0].message
-    if unbounded:
-        status = "unbounded"
-        if len(results) > 1:
-            message = f"blade {unbounded[0]}: {results[unbounded[0] - 1].message}"
-    area = element_area(blade, spec)
+    first, area = results[unbounded[0] - 1 if unbounded else 0], element_area(blade, spec)
+    by = f"blade {unbounded[0]}: " if unbounded and len(results) > 1 else ""
     worn = [seat.simulation.state.ledger[energy.WORN, : area.size] @ area for seat in seats]
     return RowResult(
-        status=status,
-        message=message,
+        status=first.status,
+        message=by + first.message,
         wear=results[0].wear,
         blades=results,
         worn_volume=np.array(worn),
@@ -113,10 +105,7 @@ def simulate_row(
 
 
 def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> "tuple[Modes, list[_Seat], RowSimulation]":
-    """Set up a row: modes of the nominal blade, the blades, and the loop that integrates them together.
-
-    Raises as `simulate_row`.
-    """
+    """Set up a row: modes of the nominal blade, the blades, and the loop that integrates them together."""
     modes, spec = modes_at(blade, spec.f_omega, spec), fixed_steps(blade, spec)
     seats: list[_Seat] = []
     for row_blade in row.blades:
@@ -133,10 +122,7 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> "tuple[Modes, li
 
 
 def coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray) -> np.ndarray:
-    """Find the natural angular frequencies (N,) of a mode that the disk couples by `stiffness` (N, N), rad/s.
-
-    They ascend; `modes` are those of the nominal blade. Raises `ValueError` if the disk makes one unstable.
-    """
+    """Find the natural angular frequencies (N,), rad/s, of a mode coupled by `stiffness` (N, N)."""
     factors = [blade.frequency_factors(modes.omega.size)[mode] for blade in row.blades]
     squares = scipy.linalg.eigvalsh(np.diag(np.square(factors)) + stiffness)
     if squares[0] <= 0:
@@ -149,14 +135,7 @@ def coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray
 class _Seat:
     """One blade of the row, its place and what is kept of its run."""
 
-    def __init__(
-        self,
-        blade: ReducedBlade,
-        spec: RunSpec,
-        modes: Modes,
-        row_blade: RowBlade,
-        coating: Mapping[str, np.ndarray],
-    ):
+    def __init__(self, blade: ReducedBlade, spec: RunSpec, modes: Modes, row_blade: RowBlade, coating: dict):
         n_elements, damping_ratio = spec.coating.n_elements, spec.damping_ratio * row_blade.damping
         if damping_ratio >= 1:
             damping = f"damping = {row_blade.damping:g}"
@@ -178,10 +157,7 @@ class _Seat:
 
 
 def _distances(blade: ReducedBlade, spec: RunSpec, seats: Sequence[_Seat]) -> tuple[list[int], int]:
-    """Count the elements from each blade to the one behind it, and those that two reach over together.
-
-    Raises `ValueError` if an element can be under two blades.
-    """
+    """Count the elements from each blade to the one behind it, and those that two reach over together."""
     n_elements, radius = spec.coating.n_elements, tip_radii(blade)[0]
     at_most = spec.tip.half_width + spec.displacement_limit * n_elements / (_TURN * radius.min())
     reach = math.ceil(2 * at_most) + 3  # a node stands anywhere within two elements, rows are whole
@@ -231,18 +207,15 @@ def _coupling(spec: RunSpec, modes: Modes, row: Row, seats: Sequence[_Seat]) -> 
 
 def _stored(row: Row, modes: Modes, seats: Sequence[_Seat]) -> float:
     """Elastic energy of the disk, J."""
-    energy_sum = 0.0
+    total = 0.0
     for mode, matrix in enumerate(row.disk.stiffness if row.disk else ()):
         of_mode = np.array([seat.simulation.state.q[0, mode] for seat in seats])
-        energy_sum += 0.5 * modes.omega[mode] ** 2 * float(of_mode @ np.array(matrix) @ of_mode)
-    return energy_sum
+        total += 0.5 * modes.omega[mode] ** 2 * float(of_mode @ np.array(matrix) @ of_mode)
+    return total
 
 
 def _march(
-    spec: RunSpec,
-    seats: Sequence[_Seat],
-    simulation: RowSimulation,
-    progress: Callable[[int], None] | None,
+    spec: RunSpec, seats: Sequence[_Seat], simulation: RowSimulation, progress: Callable[[int], None] | None
 ) -> None:
     """Integrate all blades revolution by revolution, to the end or to that of one of them."""
     n_elements, begins = spec.coating.n_elements, simulation.begins.tolist()

@@ -45,21 +45,13 @@ OF_BLADES = tuple(name for name in DATASETS if name.startswith("blade_"))
 
 
 def described(config: Config) -> Row:
-    """Describe the row that the block ``rotor`` of the study `config` is of.
-
-    Raises `ValueError` if a list has neither one value nor one for each blade.
-    """
+    """Describe the row of the block ``rotor``; `ValueError` if a list has another number of values."""
     rotor = config.rotor
     scatters = rotor.length_scatter or 0.0, rotor.frequency_scatter or 0.0
     drawn = Row.drawn(rotor.blades, 1 if rotor.seed is None else rotor.seed, *scatters).blades
-    row = Row.even(
-        rotor.blades,
-        length=rotor.length or 0.0,
-        frequency=rotor.frequency or 0.0,
-        angle_error=rotor.angle_error or 0.0,
-        damping=rotor.damping or 1.0,
-        disk=Disk.ring(rotor.blades, rotor.coupling) if rotor.coupling else None,
-    )
+    lists = {name: getattr(rotor, name) for name in ("length", "frequency", "angle_error", "damping")}
+    disk = Disk.ring(rotor.blades, rotor.coupling) if rotor.coupling else None
+    row = Row.even(rotor.blades, **{name: values for name, values in lists.items() if values}, disk=disk)
     blades = (
         replace(blade, length=blade.length + draw.length, frequency=blade.frequency + draw.frequency)
         for blade, draw in zip(row.blades, drawn, strict=True)
@@ -111,10 +103,7 @@ def stored(run: StoredRun) -> Row | None:
 
 
 def determinants(row: Row) -> dict[str, Any]:
-    """Return what determines a run of `row` besides what determines one of a single blade.
-
-    Raises `InputError` for anything but a row.
-    """
+    """Return what determines a run of `row` besides what determines one of a single blade."""
     if not isinstance(row, Row):
         raise InputError("row", row, "must be a Row")
     return {"row": row, "rows": rows_digest()}
@@ -136,11 +125,9 @@ def compute(
     keep_history: bool,
     progress: Callable[[int], None] | None = None,
 ) -> StoredRun:
-    """Simulate a row, and return what is stored of it.
+    """Simulate a row, and return what is stored of it; raises as `bladerub.extras.rows.row.simulate_row`.
 
-    It is the run of the blade that vibrates most, whose number is the attribute ``blade``, with the energy of
-    the whole row and `DATASETS`. `key` is that of the run, `progress` is called with the number of
-    revolutions done. Raises `ValueError` as `bladerub.extras.rows.row.simulate_row`.
+    It is the run of the blade that vibrates most, with the energy of the whole row and `DATASETS`.
     """
     from bladerub.extras.rows.row import simulate_row  # loads the compiler: who plans runs alone does without
 
@@ -164,11 +151,9 @@ def compute(
         disk_energy=float(result.disk_energy),
         blade=strongest + 1,
     )
+    inputs = ("angle", "length", "damping")
     run.data.update(
-        {
-            f"blade_{name}": np.array([getattr(blade, name) for blade in row.blades])
-            for name in ("angle", "length", "damping")
-        },
+        {f"blade_{name}": np.array([getattr(blade, name) for blade in row.blades]) for name in inputs},
         row=np.array(row.to_json()),
         blade=np.arange(1, len(row.blades) + 1),
         blade_frequency=np.array([blade.frequency_factors(1)[0] - 1 for blade in row.blades]),
