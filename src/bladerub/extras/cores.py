@@ -50,20 +50,15 @@ class Costs(NamedTuple):
         return threads_for(cost, self.total, cores)
 
     def priority(self, coating: str) -> float:
-        """Priority, below 1, of the runs of a `coating`: the more it and what follows cost, the higher.
-
-        Those that take longest so come first and none of them is left at the end, with the other cores idle.
-        Zero for a coating that is run on request.
-        """
+        """Priority, below 1, of the runs of a `coating`: those that take longest come first."""
         of_coating = sum(part.get(coating, 0) for part in (self.runs, *self.further.values()))
         return of_coating / (1 + self.total)
 
 
 def threads_for(cost: float, total: float, cores: int | None) -> int:
-    """Return the threads of a job that has `cost` of the `total` of all jobs, on so many `cores`.
+    """Return the threads of a job that has `cost` of the `total` of all jobs, on so many `cores`, if known.
 
-    One where these are not known (None), and unless the job is a large part of what a core has to do: it
-    would end long after all others.
+    One, unless the job is a large part of what a core has to do: it would end long after all others.
     """
     if not cores:
         return 1

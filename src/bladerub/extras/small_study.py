@@ -44,17 +44,12 @@ def conduct(
 ) -> SmallStudy:
     """Run every coating of `config`, and judge the claims of the paper.
 
-    `model` and `rom_accuracy` are the files of its reduced blade and of the accuracy of that, `folder` is for
-    its runs and maps; runs that are there and current are kept. Without it runs and maps are in memory alone.
-    `claims` are all by default, ``C2`` standing for all its parts; `report` is as of
-    `bladerub.study.job.compute_missing`.
+    `model` and `rom_accuracy` are the files of its reduced blade; without a `folder` for its runs and maps
+    they are in memory alone. `claims` are all by default, ``C2`` standing for all its parts.
     """
     blade, cases = read_reduced_blade(model), coating_cases(config)
-    if folder is None:
-        mapped = partial(_in_memory, config, blade=blade, report=report)
-    else:
-        digest = blade_digest(model)
-        mapped = partial(map_coating, config, blade=blade, digest=digest, folder=folder, report=report)
+    digest = blade_digest(model)
+    mapped = partial(map_coating, config, blade=blade, digest=digest, folder=folder, report=report)
     # each coating of a small study has few runs
     results = dict(each_done(mapped, cases, len(cases) if solver_of(config).wants_many else 1))
     maps, n_runs = [results[case][0] for case in cases], sum(n for _, n in results.values())
@@ -71,24 +66,17 @@ def map_coating(
     case: CoatingCase,
     blade: ReducedBlade,
     digest: str,
-    folder: str | Path,
+    folder: str | Path | None,
     report: Callable[[object], None] = lambda line: None,
 ) -> tuple[CoatingMap, int]:
-    """Run one coating and make its map, in files of `folder`; return the map and the number of runs.
-
-    `digest` is that of the blade (`bladerub.study.cache`); other parameters are those of `conduct`.
-    """
+    """Run one coating and make its map, in files of `folder`, if any; return it and the number of runs."""
+    plan = coating_plan(config, case)
+    if folder is None:
+        stored, longer = compute_all(config, plan, blade, report=report)
+        collected = collect(config, case, blade, speeds(config), stored, longer)
+        return replace(collected, wear_node=None), len(stored) + sum(run is not None for run in longer)
     runs, path = Path(folder) / "runs" / case.name, Path(folder) / "maps" / f"{case.name}.h5"
-    rows = compute_missing(config, coating_plan(config, case), blade, runs, digest, report)
+    rows = compute_missing(config, plan, blade, runs, digest, report)
     write_map(path, collect_listed(config, case, blade, runs, rows), provenance(config.plain()))
     write_manifest(runs / "manifest.tsv", rows)
     return read_map(path), len(rows) + sum(bool(row.confirmation_key) for row in rows)
-
-
-def _in_memory(
-    config: Config, case: CoatingCase, blade: ReducedBlade, report: Callable[[object], None]
-) -> tuple[CoatingMap, int]:
-    """Do as `map_coating` without files."""
-    runs, longer = compute_all(config, coating_plan(config, case), blade, report=report)
-    coating_map = collect(config, case, blade, speeds(config), runs, longer)
-    return replace(coating_map, wear_node=None), len(runs) + sum(run is not None for run in longer)

@@ -57,11 +57,7 @@ def chosen(config: Config, coating: CoatingMap) -> np.ndarray:
 
 
 def judged(config: Config, coating: CoatingMap) -> np.ndarray:
-    """Choose those of which divergence counts as well.
-
-    They are its peaks, or where its orders meet C1 if it has none, with their neighbours in speed, and those
-    with a history.
-    """
+    """Choose those of which divergence counts as well: peaks, their neighbours, and those with a history."""
     f_omega = coating.f_omega
     mask = with_history(config, coating.case, f_omega)
     settings = peak_settings(config, coating.case.casing)

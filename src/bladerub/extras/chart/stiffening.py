@@ -62,8 +62,7 @@ def contact_stiffness(E: float, K: float) -> float:
 def explanation(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
     """Look at the run at the peak of each engine order: a row per point and order, with `EXPLANATION`.
 
-    Energies are means over the run, in which a vibration on the order k has k cycles per revolution. Without
-    a peak all but ``E_T`` and ``f_crossing`` is NaN.
+    Energies are means over the run, in which a vibration on the order k has k cycles per revolution.
     """
     rows = []
     for point, order in itertools.product(points, chart_orders(config)):
@@ -98,9 +97,8 @@ def share(blade: ReducedBlade, theta: float, f_omega: float) -> float:
 
 
 def table(peaks: pd.DataFrame, blade: ReducedBlade) -> pd.DataFrame:
-    """Sum up how closely f_k follows each of `MODULI`, and how θ changes it, from `peaks` of `explanation`.
+    """Sum up for each order and θ how closely f_k follows each of `MODULI`, and how θ changes it.
 
-    A row per order and θ; all columns but ``below_crossing`` are of the coatings in `is_stiffened`.
     ``modulus_ratio`` is the median of those at each f_k that both θ have where stiffening is `SMALL`,
     ``modulus_ratio_by_share`` is the ratio expected from `share`.
     """
@@ -184,10 +182,7 @@ def _ridge(peaks: pd.DataFrame) -> pd.DataFrame:
 
 
 def ridge_summary(ridges: pd.DataFrame) -> pd.DataFrame:
-    """Sum up for each casing, θ, order and speed step how certain the ridge along E is.
-
-    A row each, with `SUMMARY`: the highest point on the ridge, and medians over the ridge.
-    """
+    """Sum up how certain the ridge along E is: its highest point, and medians over it, with `SUMMARY`."""
     along_E, line = ridges[ridges.along == "E"], [*_SURFACE, "speed_step"]
     finest = along_E[along_E.speed_step == along_E.speed_step.min()]
     along_E = along_E.merge(finest, "left", on=[*_SURFACE, "E"], suffixes=("", "_finest"))

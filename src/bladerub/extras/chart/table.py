@@ -70,8 +70,7 @@ def stresses(mesh: str | Path, blade: ReducedBlade, config: Config, chart: pd.Da
 
     No run of the chart keeps its motion. The runs with the greatest amplitude on each engine order and with
     the greatest displacement are made again, two or three of some fifty; the stress at another speed may be
-    higher. A run that completes no revolution has none. `mesh` is the ``mesh.h5`` of the blade. Raises
-    `BadInput` where the blade is of matrices alone.
+    higher. A run that completes no revolution has none. `mesh` is the ``mesh.h5`` of the blade.
     """
     from bladerub.extras.stress.run import BladeStress  # the chart itself does without
 
@@ -98,20 +97,14 @@ def read_chart(chart: str | Path, stress: str | Path | None = None) -> pd.DataFr
 
 
 def broken_limits(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
-    """Return for each row of the chart which of the limits it breaks, a column of bool for each.
-
-    What is not known, such as the stress of runs that complete no revolution, is not within its limit.
-    """
+    """Return which of the limits each row of the chart breaks; what is not known is not within its limit."""
     return pd.DataFrame(
         {name: ~(chart[LIMITED[name]] <= limit) for name, limit in limits if limit is not None}
     )
 
 
 def pareto(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
-    """List the coatings to which no other of the same θ is better in both displacement and worn volume.
-
-    Their rows of the chart, by ascending displacement, and ``safe``: whether all limits are kept.
-    """
+    """List the coatings to which no other of the same θ is better in both displacement and worn volume."""
     judged = chart.assign(safe=~broken_limits(chart, limits).any(axis=1))
     ordered = judged.sort_values(["theta", "peak", "worn_volume"], ignore_index=True)
     lowest = ordered.groupby("theta").worn_volume.cummin()
@@ -120,10 +113,7 @@ def pareto(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
 
 
 def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
-    """Recommend for each θ the coating with the lowest displacement of those that break the fewest limits.
-
-    How sure that is shows in its neighbours on the chart, eight or fewer (studies/chart/README.md).
-    """
+    """Recommend for each θ the coating with the lowest displacement of those that break the fewest limits."""
     judged = chart.assign(broken=broken_limits(chart, limits).sum(axis=1))
     judged["safe"] = judged["broken"] == 0
     rows = []
@@ -145,11 +135,7 @@ def recommended(chart: pd.DataFrame, limits: Limits) -> pd.DataFrame:
 
 
 def placement(config: Config, maps: Iterable[CoatingMap]) -> pd.DataFrame:
-    """Compare what the search for maxima finds on coatings of the study, which has every speed, with all.
-
-    A row per coating and ``quantity`` (each Y_k, and peak): ``found`` at ``f_found`` by the search,
-    ``greatest`` at ``f_greatest`` among all speeds, both in m, and ``missed = 1 - found / greatest``.
-    """
+    """Compare what the search finds on coatings of the study with the greatest that is there, by quantity."""
     speeds, share, rows = chart_speeds(config), config.chart.speeds.refine_above, []
     for coating in maps:
         curves = sought(config, coating, np.nanmax(coating.revolution_peak, axis=1))
@@ -182,11 +168,7 @@ def placement_summary(compared: pd.DataFrame) -> pd.DataFrame:
 
 
 def agreement(chart: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
-    """Compare those points of the chart that are coatings of the study with what the search finds there.
-
-    The rows of `compared` that are points, with ``in_chart`` (m) and its relative ``disagreement`` with
-    ``found``: 0 where the runs are the same.
-    """
+    """Compare those points of the chart that are coatings of the study with what the search finds there."""
     quantities = [name for name in chart.columns if name in set(compared.quantity)]
     values = chart.melt(COATING, quantities, "quantity", "in_chart")
     both = compared.merge(values, on=[*COATING, "quantity"])

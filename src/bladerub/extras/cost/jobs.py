@@ -23,10 +23,9 @@ COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
 
 
 def table(benchmarks: str | Path, others: Iterable[str] = ()) -> pd.DataFrame:
-    """Collect the records of the last execution of each job, a row a job, from the folder `benchmarks`.
+    """Collect the last records of all jobs of the rules of `STAGES` and `others`, a row a job.
 
-    A record is ``<rule>.tsv``, or ``<rule>/<job>.tsv``. The rules are those of `STAGES`, and `others`, each a
-    stage of its own. NaN where a job was too short to be measured.
+    In the folder `benchmarks` they are ``<rule>.tsv``, or ``<rule>/<job>.tsv``.
     """
     rows, stage_of = [], {rule: rule for rule in others} | STAGES
     for path in sorted(Path(benchmarks).rglob("*.tsv")):

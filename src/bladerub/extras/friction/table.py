@@ -20,11 +20,9 @@ _COMPARED = ["peak", "reversed", "status"]
 
 
 def table(pairs: Iterable[tuple[str | Path, str | Path]], revolutions: int) -> pd.DataFrame:
-    """Compare the runs of each pair of coatings, speed by speed: a row per run, with `COLUMNS`.
+    """Compare the runs of each pair of manifests, the second of Coulomb's law: a row per run, with `COLUMNS`.
 
-    A pair is the manifest of a coating with a force of constant direction and that of the same by Coulomb's
-    law; peaks are sought in the last `revolutions`. Raises `OSError` if a manifest or run is missing or
-    damaged, or the speeds of a pair differ.
+    Peaks are sought in the last `revolutions`.
     """
     tables = []
     for paths in pairs:

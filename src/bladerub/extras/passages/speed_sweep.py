@@ -55,10 +55,9 @@ class SpeedStep(NamedTuple):
 
 
 def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
-    """Divide a sweep of a blade of first frequency `f1_hz` (Hz) into steps of constant speed.
+    """Divide a sweep of a blade of first frequency `f1_hz` (Hz) into steps of constant speed, each its mean.
 
-    The speed of each is the mean over it. The last is prolonged to the end of its revolution, the first
-    one at least.
+    The last is prolonged to the end of its revolution, the first one at least.
     """
     n_elements, start = spec.run.coating.n_elements, spec.run.f_omega
     n_steps_of_speed = max(1, int(np.ceil(abs(spec.f_end - start) / spec.speed_step - 1e-9)))

@@ -22,10 +22,7 @@ DIRECTIONS = ("up", "down")
 
 
 def sweep_spec(config: Config, case: CoatingCase, direction: str, rate: float) -> SweepSpec:
-    """Describe one sweep in SI units; it begins at rest, on a new coating.
-
-    Raises `BadInput` if the range of the blade ends below the speeds of the sweep.
-    """
+    """Describe one sweep in SI units; it begins at rest, on a new coating."""
     settings, highest = config.sweeps, config.reduction.f_omega_max
     if settings.start >= highest:
         requirement = f"must be below reduction.f_omega_max = {highest:g}"

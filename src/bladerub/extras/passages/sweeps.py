@@ -128,8 +128,7 @@ def table(
 ) -> pd.DataFrame:
     """Compare the peaks of sweeps with those at constant speed, in `maps`: a row per sweep and engine order.
 
-    Both are sought in the same window of speeds; that of a sweep is NaN if it exceeds the displacement limit
-    before. A peak ``survives`` from the ratio ``sweeps.survival`` of amplitudes on.
+    Both are sought in the same window of speeds. A peak ``survives`` from the ratio ``sweeps.survival`` on.
     """
     settings, rows = config.analysis.peaks, []
     pairs = ((sweep, order) for sweep in sweeps for order in peak_orders(config, sweep.case.casing))

@@ -62,8 +62,7 @@ def notes(results: str, laid_over: LaidOver) -> list[str]:
 def start(workflow: Any, results: str, laid_over: LaidOver) -> None:
     """Record the config of new results, which Snakemake's `workflow` is about to make.
 
-    Raises `BadInput` for targets beside the study, if the results are of another config and the command line
-    names none: they would follow on all of that study.
+    Targets beside the study are refused if the results are of another config: they would follow on it.
     """
     targets = set(workflow.dag_settings.targets) - {"all"}
     if targets and (made_with := _made_with(results, laid_over)):
@@ -83,11 +82,7 @@ def _made_with(results: str, laid_over: LaidOver) -> LaidOver | None:
 
 
 def read_config(options: argparse.Namespace, base: Path, folder: Path) -> tuple[Config, list[str]]:
-    """Read the config `base` of a study in its `folder`, with what made its results laid over it.
-
-    Returns the notes of it as well. Raises `BadInput` if that executes a law and the `options` of the command
-    do not trust it, or if a file of it is not there.
-    """
+    """Read the config `base` of a study in its `folder`, with what made its results over it, and notes."""
     settings = load(base)
     results = settings.get("results")
     made_with = read(folder / results) if isinstance(results, str) else None

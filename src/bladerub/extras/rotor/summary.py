@@ -78,10 +78,10 @@ def _measure(path: Path, analysis: Analysis) -> dict[str, Any]:
 
 
 def combinations(table: pd.DataFrame) -> pd.DataFrame:
-    """Sum up the `table` of `draws`: a row for each combination, with `COLUMNS`.
+    """Sum up the draws of each combination, with `COLUMNS`.
 
-    Of each measure the median over the draws with its 95 % interval (``low``, ``high``), which holds whatever
-    the distribution, and the 5 and 95 % quantiles.
+    Of each measure the median with its 95 % interval (``low``, ``high``), which holds whatever the
+    distribution, and the 5 and 95 % quantiles.
     """
     rows = []
     for what, of_what in table.groupby(WHAT, sort=False):

@@ -11,11 +11,7 @@ from bladerub.study.job import RunDone
 
 
 class Bar:
-    """The bar of the coating `name`, if standard error is a terminal and no other job shows one.
-
-    That job holds the lock file of all coatings, which is beside `folder`: two bars would overwrite each
-    other.
-    """
+    """The bar of the coating `name`, if standard error is a terminal and no other job shows one there."""
 
     def __init__(self, name: str, folder: Path):
         self._name, self._turn = name, folder.with_name(".terminal.lock")

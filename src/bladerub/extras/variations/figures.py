@@ -77,8 +77,7 @@ def identification(
 ) -> Figure:
     """Draw the targets of all sets above, and what is left of the range of each factor below.
 
-    `measured` has the targets of each set, the study's own first. `points` are points of what is left and
-    `candidates` the best sets, both as fractions of the ranges.
+    The study's own set is the first; `points` are what is left, `candidates` the best sets (range fractions).
     """
     rows, heights = -(-len(plan.factors) // _COLUMNS), 0.14 * measured.shape[1] + 0.8
     figure = style.new_figure(style.PAGE, heights + 1.0 * rows)

@@ -78,11 +78,7 @@ def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
 def summary(
     plan: Plan, verdicts: pd.DataFrame, sensitivity: pd.DataFrame, cost: pd.DataFrame
 ) -> pd.DataFrame:
-    """Sum up each part of each claim: the share of the design in which it holds, what decides, and the cost.
-
-    `verdicts` is from `collect`, `sensitivity` from `sensitivities`, `cost` from the jobs. Shares are of the
-    samples that have a verdict.
-    """
+    """Sum up each part of each claim by `collect` and `sensitivities`; shares are of what has a verdict."""
     part_of = {claim: part.name for part in plan.parts.values() for claim in part.claims}
     parts = pd.Series({id_: part_of[claim_of(id_)] for id_ in _TITLES if claim_of(id_) in part_of})
     own_values, drawn = (verdicts["sample"] == REFERENCE), cost[cost["set"] != REFERENCE]
@@ -110,10 +106,7 @@ class Indices(NamedTuple):
 
 
 def indices(positions: np.ndarray, output: np.ndarray) -> Indices:
-    """Estimate the indices of `output` (n,) at `positions` (n, d), each factor evenly between 0 and 1.
-
-    They are NaN if all of `output` is the same, and of fewer samples than `FEWEST`.
-    """
+    """Estimate the indices of `output` (n,) at `positions` (n, d), from 0 to 1; NaN of too few samples."""
     factors = range(positions.shape[1])
     if output.size < FEWEST or np.ptp(output) == 0:
         return Indices(*np.full((2, len(factors)), np.nan), np.nan)

@@ -91,10 +91,7 @@ def _peak(evidence: Evidence, case: CoatingCase, order: int) -> tuple[float, flo
 
 
 def _dominance(evidence: Evidence, case: CoatingCase, inside: np.ndarray, harmonic: int) -> np.ndarray:
-    """By how much the share of a harmonic in the wear exceeds that of the strongest other, at some speeds.
-
-    The nodal diameters of the casing do not compete: they are in every pattern, and no lobes of their own.
-    """
+    """By how much the share of a harmonic in the wear exceeds the strongest other's, at some speeds (n,)."""
     if not inside.any():
         raise NotMeasurable(f"{case.name} has no run at these speeds")
     power = np.abs(np.fft.rfft(evidence.map(case).wear[inside])[:, 1:]) ** 2

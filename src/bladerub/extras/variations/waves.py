@@ -68,10 +68,7 @@ def design(plan: Plan) -> np.ndarray:
 
 
 def known(plan: Plan) -> dict[int, np.ndarray]:
-    """Return the position (d,) of each sample of a robustness.
-
-    Those of an identification are in tables, because later waves depend on the results of earlier ones.
-    """
+    """Return the position (d,) of each sample of a robustness; those of an identification are in tables."""
     return dict(enumerate(design(plan))) if plan.factors and not plan.candidates else {}
 
 
@@ -139,9 +136,9 @@ def remaining(plan: Plan, emulated: Mapping[str, "Emulator"]) -> Remaining:
 def draw(
     plan: Plan, wave: int, remainder: Remaining, emulated: Mapping[str, "Emulator"], simulated: np.ndarray
 ) -> np.ndarray:
-    """Draw plausible points (n, d) for the wave after `wave`, far from each other and from the `simulated`.
+    """Draw plausible points (n, d), each far from those before it and from the `simulated`.
 
-    Each is as far as possible from those before it. There are `DRAWN`, or as many as the wave needs.
+    There are `DRAWN`, or as many as a wave needs.
     """
     rng, count, points = np.random.default_rng([plan.seed, wave]), max(DRAWN, *plan.waves), remainder.points
     for _ in range(_ROUNDS):
@@ -169,8 +166,7 @@ def choose(
 ) -> pd.DataFrame:
     """Choose the sets in which most parts hold, and draw neighbours; the misfit decides among equals.
 
-    `positions` and `measured` have a row for each simulated set, `verdicts` one for each part as well. A row
-    for each candidate (from 0, which has the study's own values) and neighbour (0: the set itself), by
+    A row for each candidate (from 0, which has the study's own values) and neighbour (0: the set itself), by
     `CANDIDATES`, with the position of each factor.
     """
     misfits = misfit(measured)
