@@ -8,19 +8,49 @@ from docs.numbers import decimals, fixed, headings, mm, peak, percent, row, rows
 def numbers(tables):
     """Return the text for each name on the page."""
     chart, explanation = tables["chart"], tables["chart_explanation"]
+    agreement = tables["chart_agreement"]
+    agreeing = rows(agreement, disagreement=0)["quantity"].value_counts()
     return (
         {
             "commit": chart.attrs["commit"],
             "points": fixed(len(chart)),
             "runs": fixed(chart["runs"].sum()),
             "runs_a_point": fixed(chart["runs"].mean()),
-            "placement": _placement(tables["chart_placement_summary"]),
-            "ridge_by_step": _ridge_by_step(tables["chart_ridge_summary"]),
+            "placement": table(
+                tables["chart_placement_summary"],
+                headings("quantity", "coatings")
+                | {
+                    "exact": "found exactly",
+                    "within_1_percent": "within 1 %",
+                    "within_5_percent": "within 5 %",
+                }
+                | {"worst_missed": ("worst, % too low", lambda missed: percent(missed, 1))},
+            ),
+            "ridge_by_step": table(
+                tables["chart_ridge_summary"],
+                headings("theta", "order")
+                | {
+                    "speed_step": "step",
+                    "E": "E of the highest",
+                    "K": "its K",
+                    "E_T": ("its E_T", decimals(2)),
+                }
+                | {
+                    "amplitude": ("height, mm", lambda height: mm(height, 2)),
+                    "f_peak": ("speed", decimals(3)),
+                }
+                | {"neighbour_spread": ("neighbours differ by, %", percent)}
+                | {
+                    "height_lost": ("height lost, %", percent),
+                    "K_shift": ("K off by the factor", decimals(1)),
+                },
+            ),
         }
         | _amplitudes(chart, tables["peaks"])
         | _ridge(explanation)
         | _speeds(tables["chart_stiffening"], explanation, tables["peaks"])
-        | _agreement(tables["chart_agreement"])
+        | {"compared": fixed(len(rows(agreement, quantity="Y4")))}
+        | {f"same_{quantity}": fixed(agreeing[quantity]) for quantity in ("Y4", "Y6")}
     )
 
 
@@ -75,7 +105,6 @@ def _safe(coatings):
 
 def _ridge(explanation):
     """Explain the ridge: contact stiffness, energy and lobes at the peaks."""
-    across = rows(explanation, order=4, theta=0, E=2, K=[0.02, 0.1, 0.3, 1, 6, 20])
     correlations, lobes = [], []
     for (theta, order), peaks in explanation.groupby(["theta", "order"]):
         ranks = peaks[["amplitude", "wear_per_cycle", "E_T"]].rank().corr()["amplitude"]
@@ -89,16 +118,13 @@ def _ridge(explanation):
             half, four = len(peaks) // 2, peaks.sort_values("amplitude")["lobes"] == 4
             line["four lobes: upper half of Y4, %"] = percent(four.tail(half).mean())
             lobes.append(line | {"lower half of Y4, %": percent(four.head(half).mean())})
+    energies = {"K": "K", "wear_per_cycle": ("by wear, J", decimals(1))}
+    energies |= {
+        "damping_per_cycle": ("by the damping of the blade, J", decimals(1)),
+        "amplitude": ("Y4, mm", mm),
+    }
     return {
-        "energies": table(
-            across,
-            {
-                "K": "K",
-                "wear_per_cycle": ("by wear, J", decimals(1)),
-                "damping_per_cycle": ("by the damping of the blade, J", decimals(1)),
-                "amplitude": ("Y4, mm", mm),
-            },
-        ),
+        "energies": table(rows(explanation, order=4, theta=0, E=2, K=[0.02, 0.1, 0.3, 1, 6, 20]), energies),
         "correlations": table(correlations),
         "lobes": table(lobes),
     }
@@ -132,44 +158,4 @@ def _speeds(stiffening, explanation, peaks):
         "other_E_T": fixed(other["E_T"].min(), 1),
         "other_coatings": fixed(len(other)),
         "other_speeds": span(other["f_peak"], decimals(3)),
-    }
-
-
-def _placement(placement):
-    return table(
-        placement,
-        headings("quantity", "coatings")
-        | {
-            "exact": "found exactly",
-            "within_1_percent": "within 1 %",
-            "within_5_percent": "within 5 %",
-            "worst_missed": ("worst, % too low", lambda missed: percent(missed, 1)),
-        },
-    )
-
-
-def _ridge_by_step(ridge):
-    return table(
-        ridge,
-        headings("theta", "order")
-        | {
-            "speed_step": "step",
-            "E": "E of the highest",
-            "K": "its K",
-            "E_T": ("its E_T", decimals(2)),
-            "amplitude": ("height, mm", lambda height: mm(height, 2)),
-            "f_peak": ("speed", decimals(3)),
-            "neighbour_spread": ("neighbours differ by, %", percent),
-            "height_lost": ("height lost, %", percent),
-            "K_shift": ("K off by the factor", decimals(1)),
-        },
-    )
-
-
-def _agreement(agreement):
-    agreeing = rows(agreement, disagreement=0)["quantity"].value_counts()
-    return {
-        "compared": fixed(len(rows(agreement, quantity="Y4"))),
-        "same_Y4": fixed(agreeing["Y4"]),
-        "same_Y6": fixed(agreeing["Y6"]),
     }

@@ -1,6 +1,7 @@
 """Numbers of studies/convergence/README.md."""
 
 import math
+from functools import partial
 
 from docs.numbers import fixed, headings, mm, percent, rows, span, table
 from docs.numbers.refinement import cost, greatest_changes, refinement
@@ -27,33 +28,20 @@ def numbers(tables):
 
 def _steps(steps):
     study = rows(steps, tolerance=0.01)
-    errors = (
-        study[~study["sensitive"]]
-        .groupby("E")
-        .agg(
-            thousand=("steps_per_revolution", "median"),
-            median=("error", "median"),
-            most=("error", lambda error: error.quantile(0.9)),
-            worst=("error", "max"),
-        )
-        .assign(chaotic=study.groupby("E")["sensitive"].sum())
-        .reset_index()
-    )
+    regular = study[~study["sensitive"]].groupby("E")
+    errors = regular["error"].agg(["median", ("most", lambda error: error.quantile(0.9)), ("worst", "max")])
+    thousand, chaotic = regular["steps_per_revolution"].median(), study.groupby("E")["sensitive"].sum()
 
     def share(error):
         return percent(error, 3 if error < 1e-3 else 2)
 
     return {
         "errors": table(
-            errors,
-            {
-                "E": ("E", lambda E: f"{E:g}" if math.isfinite(E) else "rigid"),
-                "thousand": ("steps in a revolution, thousand", lambda steps: fixed(steps / 1e3)),
-                "median": ("median error, %", share),
-                "most": ("nine runs in ten, %", share),
-                "worst": ("worst, %", share),
-                "chaotic": "chaotic runs, not counted",
-            },
+            errors.assign(thousand=thousand, chaotic=chaotic).reset_index(),
+            {"E": ("E", lambda E: f"{E:g}" if math.isfinite(E) else "rigid")}
+            | {"thousand": ("steps in a revolution, thousand", lambda steps: fixed(steps / 1e3))}
+            | {"median": ("median error, %", share), "most": ("nine runs in ten, %", share)}
+            | {"worst": ("worst, %", share), "chaotic": "chaotic runs, not counted"},
         ),
         "sample": fixed(study.groupby("E").size().max()),
     }
@@ -65,6 +53,7 @@ def _accuracy(accuracy):
     by_modulus = accuracy.assign(beyond=beyond).groupby("E")[["beyond", "sensitive"]]
     unexplained = accuracy[beyond & ~accuracy["sensitive"] & (accuracy["status"] == "completed")]
     by_start = unexplained[[f"start_{measure}" for measure in _MEASURES]].max(axis=1)
+    share = partial(percent, digits=2)
     return {
         "drawn": fixed(len(drawn)),
         "important": fixed(len(important)),
@@ -77,11 +66,8 @@ def _accuracy(accuracy):
         "unexplained": table(
             unexplained.assign(by_start=by_start),
             headings("casing", "E", "K", "theta", "f_omega")
-            | {
-                f"error_{measure}": (f"{words}, %", lambda error: percent(error, 2))
-                for measure, words in _MEASURES.items()
-            }
-            | {"by_start": ("most by another start, %", lambda change: percent(change, 2))},
+            | {f"error_{measure}": (f"{words}, %", share) for measure, words in _MEASURES.items()}
+            | {"by_start": ("most by another start, %", share)},
         ),
     }
 

@@ -9,10 +9,12 @@ def numbers(tables):
 
 
 def _sweeps(sweeps):
-    rigid = rows(sweeps, law="coulomb", order=4, rate=[0.01, 0.05, 0.2]).drop_duplicates(
-        ["direction", "rate"]
+    rigid = rows(sweeps, law="coulomb", order=4, rate=[0.01, 0.05, 0.2])
+    rigid = (
+        rigid.drop_duplicates(["direction", "rate"])
+        .pivot(index="rate", columns="direction", values="ratio")
+        .reset_index()
     )
-    rigid = rigid.pivot(index="rate", columns="direction", values="ratio").reset_index()
     soft, hard = rows(sweeps, E=0.11), rows(sweeps, E=[1.1, 2], theta=0)
     worn = rows(sweeps, E=2, K=0.5, theta=0, rate=0.01)
     worn = worn[~((worn["direction"] == "down") & (worn["order"] == 4))]  # the first peak of a run-down
@@ -23,12 +25,9 @@ def _sweeps(sweeps):
         ),
         "soft": table(
             rows(soft, order=4, rate=0.01),
-            {
-                "direction": "direction",
-                "f_peak": ("speed of the peak", decimals(3)),
-                "f_peak_constant": ("at constant speed", decimals(3)),
-                "ratio": ("amplitude over that at constant speed", decimals(2)),
-            },
+            {"direction": "direction", "f_peak": ("speed of the peak", decimals(3))}
+            | {"f_peak_constant": ("at constant speed", decimals(3))}
+            | {"ratio": ("amplitude over that at constant speed", decimals(2))},
         ),
         "soft_peaks": fixed(len(soft)),
         "soft_survive": fixed(soft["survives"].sum()),
@@ -48,13 +47,8 @@ def _sweeps(sweeps):
 
 
 def _long_runs(runs):
-    verdicts = {
-        "unbounded": "beyond the limit",
-        "divergent": "grow",
-        "saturating": "saturate",
-        "steady": "steady",
-        "free": "end without contact",
-    }
+    verdicts = {"unbounded": "beyond the limit", "divergent": "grow", "saturating": "saturate"}
+    verdicts |= {"steady": "steady", "free": "end without contact"}
     lines = []
     for name, why, revolutions in (
         ("grow after 60 revolutions, away from the peaks", ["grows"], 125),

@@ -28,13 +28,11 @@ def numbers(tables):
         "E = 20 at its f6": {"E": 20, "f_omega": 0.2},
         "twelve blades on a coupled disk": {"blades": 12, "coupling": 0.01},
     }
+    by_blades = {str(blades): {"blades": blades} for blades in sorted(critical["blades"])}
+    others = {name: {"blades": 4} | change for name, change in others.items()}
     return {
-        "by_blades": _combinations(
-            rotor, half, "blades", {str(blades): {"blades": blades} for blades in sorted(critical["blades"])}
-        ),
-        "by_combination": _combinations(
-            rotor, half, "four blades", {name: {"blades": 4} | change for name, change in others.items()}
-        ),
+        "by_blades": _combinations(rotor, half, "blades", by_blades),
+        "by_combination": _combinations(rotor, half, "four blades", others),
         "energy_residual": fixed(1e6 * rotor["energy_residual"].max()),
         "patterns": _patterns(critical),
         "drift": _drift(drift),
@@ -48,20 +46,15 @@ def _combinations(rotor, half, heading, combinations):
     """Write rows of blades by combination, each with the results of the first half of its draws."""
     lines = []
     for name, changes in combinations.items():
-        values = row(rotor, **(_CRITICAL | changes))
-        first = row(half, **(_CRITICAL | changes))
-        blades = values["blades"]
+        values, first = (row(rows_of, **(_CRITICAL | changes)) for rows_of in (rotor, half))
+        leave, first_leave = (percent(part["unbounded_rows"] / part["rows"]) for part in (values, first))
+        blades, line = values["blades"], {heading: name, "draws": fixed(values["rows"])}
         lines.append(
-            {
-                heading: name,
-                "draws": fixed(values["rows"]),
-                "leave the limit, %": percent(values["unbounded_rows"] / values["rows"]),
-                "of the first half": percent(first["unbounded_rows"] / first["rows"]),
-                "amplitude": _interval(values),
-                "amplitude of the first half": _interval(first),
-                "wear of the longest": _share(blades, values["longest_share_median"]),
-                "wear of the most worn": _share(blades, values["largest_share_median"]),
-            }
+            line
+            | {"leave the limit, %": leave, "of the first half": first_leave}
+            | {"amplitude": _interval(values), "amplitude of the first half": _interval(first)}
+            | {"wear of the longest": _share(blades, values["longest_share_median"])}
+            | {"wear of the most worn": _share(blades, values["largest_share_median"])}
         )
     return table(lines)
 
@@ -76,19 +69,15 @@ def _share(blades, share):
 
 
 def _patterns(critical):
+    lobes = critical[["lobes_lowest", "lobes_highest"]].to_numpy(int)
     return table(
-        pd.DataFrame(
-            {
-                "blades": critical["blades"],
-                "strongest harmonic of the wear": critical["wear_harmonic"].map(fixed),
-                "rows that have it, %": (critical["wear_harmonic_rows"] / critical["rows"]).map(percent),
-                "its share of the variance, %": critical["wear_harmonic_share_median"].map(percent),
-                "lobes": [
-                    f"{low} to {high}"
-                    for low, high in critical[["lobes_lowest", "lobes_highest"]].to_numpy(int)
-                ],
-            }
-        )
+        {
+            "blades": critical["blades"],
+            "strongest harmonic of the wear": critical["wear_harmonic"].map(fixed),
+            "rows that have it, %": (critical["wear_harmonic_rows"] / critical["rows"]).map(percent),
+            "its share of the variance, %": critical["wear_harmonic_share_median"].map(percent),
+            "lobes": [f"{low} to {high}" for low, high in lobes],
+        }
     )
 
 
@@ -99,11 +88,8 @@ def _drift(drift):
     return table(
         rows(drift, f_omega=[0.346, 0.31], length_scatter=5e-5),
         headings("E", "f_omega", "blades")
-        | {
-            "pattern_drift_median": ("median, degrees a revolution", degrees),
-            "pattern_drift_p05": ("5 %", degrees),
-            "pattern_drift_p95": ("95 %", degrees),
-        },
+        | {"pattern_drift_median": ("median, degrees a revolution", degrees)}
+        | {"pattern_drift_p05": ("5 %", degrees), "pattern_drift_p95": ("95 %", degrees)},
     )
 
 
@@ -116,14 +102,10 @@ def _sweeps(rotor):
         highest = sweep.loc[sweep["row_amplitude_median"].idxmax()]
         unbounded = (sweep["unbounded_rows"] / sweep["rows"]).max()
         lines.append(
-            {
-                "around": peak,
-                "E": E,
-                "θ": theta,
-                "greatest median amplitude, mm": mm(highest["row_amplitude_median"]),
-                "at f_Ω": fixed(highest["f_omega"], 3),
-                "leave the limit at the worst speed, %": percent(unbounded),
-            }
+            {"around": peak, "E": E, "θ": theta}
+            | {"greatest median amplitude, mm": mm(highest["row_amplitude_median"])}
+            | {"at f_Ω": fixed(highest["f_omega"], 3)}
+            | {"leave the limit at the worst speed, %": percent(unbounded)}
         )
     return table(lines)
 

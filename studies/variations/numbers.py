@@ -7,15 +7,8 @@ _SPEEDS = ["f4_soft", "f6_soft", "f6_tilted", "f6_straight"]
 
 def numbers(tables):
     """Return the text for each name on the page."""
-    return (
-        _calibration(tables["calibration"], tables["calibration_counts"])
-        | _robustness(tables["robustness"], tables["findings"])
-        | _identification(tables)
-        | {
-            "best_sets": _best_sets(tables["identification_counts"]),
-            "values": _values(tables["identification_ranges"], tables["identification_candidates"]),
-        }
-    )
+    calibration = _calibration(tables["calibration"], tables["calibration_counts"])
+    return calibration | _robustness(tables["robustness"], tables["findings"]) | _identification(tables)
 
 
 def _calibration(verdicts, counts):
@@ -32,14 +25,8 @@ def _calibration(verdicts, counts):
         ),
         "measured": table(
             measured,
-            {
-                "set": "set",
-                "C4a": "f6",
-                "C4b": "f4",
-                "C4c": ("odd over even, %", percent),
-                "C2d": "four lobes",
-                "C3b": "maximum of wear",
-            },
+            {"set": "set", "C4a": "f6", "C4b": "f4", "C4c": ("odd over even, %", percent)}
+            | {"C2d": "four lobes", "C3b": "maximum of wear"},
         ),
         "independent": ", ".join(sorted(everywhere.index[everywhere == len(counts)])),
         "nowhere": fixed(len(rows(verdicts, id=["C6b", "C8a", "C9a", "C9d"], holds="yes"))),
@@ -56,12 +43,9 @@ def _robustness(robustness, findings):
         "commit_robustness": robustness.attrs["commit"],
         "shares": table(
             robustness,
-            {
-                "id": "claim",
-                "samples": "samples",
-                "yes_share": ("yes, %", percent),
-                "partly_share": ("partly, %", percent),
-                "no_share": ("no, %", percent),
+            {"id": "claim", "samples": "samples"}
+            | {f"{word}_share": (f"{word}, %", percent) for word in ("yes", "partly", "no")}
+            | {
                 "reference": "own values",
                 "predicted": ("predicted", decimals(2)),
                 "decided_by": "decided by",
@@ -75,11 +59,8 @@ def _robustness(robustness, findings):
         "samples": fixed(rows(robustness, id="C6a")["samples"].iloc[0]),
         "cost": table(
             parts,
-            {
-                "part": "part",
-                "runs_per_sample": ("runs a sample", fixed),
-                "cpu_s_per_sample": ("seconds a sample, on one core", fixed),
-            },
+            {"part": "part", "runs_per_sample": ("runs a sample", fixed)}
+            | {"cpu_s_per_sample": ("seconds a sample, on one core", fixed)},
         ),
         "hours": fixed(((parts["samples"] + 1) * parts["cpu_s_per_sample"]).sum() / 7200, 1),
     }
@@ -90,6 +71,13 @@ def _identification(tables):
     targets = tables["identification_targets"].sort_values("plausible").head(5)
     last = tables["identification_waves"].iloc[-1]
     exclusions = tables["identification_exclusions"]
+    names = {0: "own values", 1: "first candidate", 2: "second candidate"}
+    counts = tables["identification_counts"]
+    values = rows(tables["identification_candidates"], neighbour=0)
+    values = values.pivot(index="factor", columns="candidate", values="value")
+    values = values.rename(columns={0: "own", 1: "first", 2: "second"}).reset_index()
+    factors = tables["identification_ranges"].merge(values)
+    numbers = ("lowest", "highest", "own", "first", "second")
     return {
         "explained_speeds": percent(rows(emulators, target=_SPEEDS)["explained"].min()),
         "explained_median": percent(emulators["explained"].median()),
@@ -107,32 +95,13 @@ def _identification(tables):
         ),
         "exclusions": fixed(len(exclusions)),
         "excluded_pairs": ", ".join((exclusions["id"] + " and " + exclusions["other_id"]).head(6)),
+        "best_sets": table(
+            counts.replace({"candidate": names, "neighbour": {0: "the set itself"}}),
+            {"candidate": "set", "neighbour": "neighbour", "matched_yes": "matched"}
+            | {"predicted_yes": "predicted", "yes": "all", "parts": "of"},
+        ),
+        "values": table(
+            factors.replace({"factor": {"_": " "}, "unit": {"^1$": ""}}, regex=True),
+            headings("factor", "unit") | {name: (name, "{:.3g}".format) for name in numbers},
+        ),
     }
-
-
-def _best_sets(counts):
-    names = {
-        "candidate": {0: "own values", 1: "first candidate", 2: "second candidate"},
-        "neighbour": {0: "the set itself"},
-    }
-    return table(
-        counts.replace(names),
-        {
-            "candidate": "set",
-            "neighbour": "neighbour",
-            "matched_yes": "matched",
-            "predicted_yes": "predicted",
-            "yes": "all",
-            "parts": "of",
-        },
-    )
-
-
-def _values(ranges, candidates):
-    values = rows(candidates, neighbour=0).pivot(index="factor", columns="candidate", values="value")
-    values = values.rename(columns={0: "own", 1: "first", 2: "second"}).reset_index()
-    factors = ranges.merge(values).replace({"factor": {"_": " "}, "unit": {"^1$": ""}}, regex=True)
-    numbers = ("lowest", "highest", "own", "first", "second")
-    return table(
-        factors, {"factor": "factor", "unit": "unit"} | {name: (name, "{:.3g}".format) for name in numbers}
-    )
