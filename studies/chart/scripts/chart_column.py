@@ -13,14 +13,8 @@ from bladerub.settings.study import typed
 from bladerub.study.cache import blade_digest
 from bladerub.study.manifest import write_manifest
 
-path = Path(snakemake.output[0])
-rows = compute_missing(
-    typed(snakemake.config),
-    snakemake.params.plan,
-    read_reduced_blade(snakemake.input.blade),
-    path.parents[1] / POINTS,
-    blade_digest(snakemake.input.blade),
-    report=job.log,
-    threads=snakemake.threads,
-)
+path, plan, model = Path(snakemake.output[0]), snakemake.params.plan, snakemake.input.blade
+config, blade, digest = typed(snakemake.config), read_reduced_blade(model), blade_digest(model)
+folder = path.parents[1] / POINTS
+rows = compute_missing(config, plan, blade, folder, digest, report=job.log, threads=snakemake.threads)
 write_manifest(path, rows, PointRow)

@@ -13,16 +13,8 @@ from bladerub.study.cache import blade_digest
 from bladerub.study.maps import read_map
 from bladerub.workflow.progress import JobProgress
 
-folder, coating = Path(snakemake.params.folder), read_map(snakemake.input.map)
-progress = JobProgress(f"{coating.case.name}, ensemble", folder)
-rows = ensemble.make(
-    typed(snakemake.config),
-    coating,
-    read_reduced_blade(snakemake.input.blade),
-    blade_digest(snakemake.input.blade),
-    folder,
-    snakemake.output[0],
-    report=progress,
-    threads=snakemake.threads,
-)
+config, inputs, folder = typed(snakemake.config), snakemake.input, Path(snakemake.params.folder)
+coating, blade, digest = read_map(inputs.map), read_reduced_blade(inputs.blade), blade_digest(inputs.blade)
+progress, path = JobProgress(f"{coating.case.name}, ensemble", folder), snakemake.output[0]
+rows = ensemble.make(config, coating, blade, digest, folder, path, progress, snakemake.threads)
 progress.finish(rows)

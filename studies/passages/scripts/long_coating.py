@@ -9,10 +9,6 @@ from bladerub.extras.passages import long_runs
 from bladerub.settings.study import typed
 from bladerub.study.maps import read_map
 
-long_runs.make(
-    typed(snakemake.config),
-    read_map(snakemake.input.map),
-    read_reduced_blade(snakemake.input.blade),
-    snakemake.output[0],
-    report=job.log,
-)
+config, inputs = typed(snakemake.config), snakemake.input
+coating, blade = read_map(inputs.map), read_reduced_blade(inputs.blade)
+long_runs.make(config, coating, blade, snakemake.output[0], report=job.log)

@@ -10,12 +10,6 @@ from bladerub.settings.study import typed
 from bladerub.study.grid import case_from_name
 
 config, wildcards = typed(snakemake.config), snakemake.wildcards
-result = sweeps.make(
-    config,
-    case_from_name(config, wildcards.coating),
-    read_reduced_blade(snakemake.input.blade),
-    wildcards.direction,
-    float(wildcards.rate),
-    snakemake.output[0],
-)
-job.log(result.message)
+case, blade = case_from_name(config, wildcards.coating), read_reduced_blade(snakemake.input.blade)
+direction, rate = wildcards.direction, float(wildcards.rate)
+job.log(sweeps.make(config, case, blade, direction, rate, snakemake.output[0]).message)
