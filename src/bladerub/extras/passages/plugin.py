@@ -1,6 +1,3 @@
 """Speed sweeps and long runs."""
 
-SECTIONS = {
-    "sweeps": "extras.passages.settings:SWEEPS",
-    "long_runs": "extras.passages.settings:LONG_RUNS",
-}
+SECTIONS = {"sweeps": "extras.passages.settings:SWEEPS", "long_runs": "extras.passages.settings:LONG_RUNS"}
