@@ -77,18 +77,27 @@ def simulate_sweep(blade: ReducedBlade, spec: SweepSpec) -> SweepResult:
 
     Raises `ValueError` if a speed is outside the range of the blade, or the step too long for the scheme.
     """
-    n_elements = spec.run.coating.n_elements
-    plan = speed_steps(spec, blade.f1_hz)
-    sweep = _Sweep(blade, spec.run, plan)
-    history = History(plan[-1].last // n_elements, sweep.stage.rule, sweep.stage.simulation)
-    integrate(sweep.segments(), history)
+    n_elements, plan = spec.run.coating.n_elements, speed_steps(spec, blade.f1_hz)
+    stage, work = _stage_at(blade, spec.run, plan[0].f_omega), 0.0
+
+    def segments() -> Iterator[Segment]:
+        nonlocal stage, work
+        for step in plan:
+            if step is not plan[0]:
+                before, stage = stage, _stage_at(blade, spec.run, step.f_omega)
+                work += _transfer(blade, before, stage)
+            first = step.first
+            while first < step.last:
+                revolution, element = divmod(first, n_elements)
+                last = min(step.last, (revolution + 1) * n_elements)
+                yield Segment(stage.simulation, revolution, element, element + last - first)
+                first = last
+
+    history = History(plan[-1].last // n_elements, stage.rule, stage.simulation)
+    integrate(segments(), history)
+    outcome = history.outcome(blade, spec.run, stage.rule, stage.simulation)
     f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
-    return SweepResult(
-        **history.outcome(blade, spec.run, sweep.stage.rule, sweep.stage.simulation),
-        f_omega=f_omega,
-        time=time,
-        work_stiffness=sweep.work,
-    )
+    return SweepResult(**outcome, f_omega=f_omega, time=time, work_stiffness=work)
 
 
 def _speed_by_revolution(
@@ -111,31 +120,9 @@ class _Stage(NamedTuple):
     simulation: Simulation
 
 
-class _Sweep:
-    """The blade during a sweep; `stage` is where it is."""
-
-    def __init__(self, blade: ReducedBlade, run: RunSpec, plan: list[SpeedStep]):
-        self.blade, self.run, self.plan = blade, run, plan
-        self.work = 0.0
-        self.stage = self._stage(plan[0].f_omega)
-
-    def segments(self) -> Iterator[Segment]:
-        n_elements = self.run.coating.n_elements
-        for step in self.plan:
-            if step is not self.plan[0]:
-                before, self.stage = self.stage, self._stage(step.f_omega)
-                self.work += _transfer(self.blade, before, self.stage)
-            first = step.first
-            while first < step.last:
-                revolution, element = divmod(first, n_elements)
-                last = min(step.last, (revolution + 1) * n_elements)
-                yield Segment(self.stage.simulation, revolution, element, element + last - first)
-                first = last
-
-    def _stage(self, f_omega: float) -> _Stage:
-        modes, (_, shapes) = modes_at(self.blade, f_omega, self.run), mode_shapes_at(self.blade, f_omega)
-        run = replace(self.run, f_omega=f_omega)
-        return _Stage(modes, shapes, *set_up(self.blade, run, modes))
+def _stage_at(blade: ReducedBlade, run: RunSpec, f_omega: float) -> _Stage:
+    modes, (_, shapes) = modes_at(blade, f_omega, run), mode_shapes_at(blade, f_omega)
+    return _Stage(modes, shapes, *set_up(blade, replace(run, f_omega=f_omega), modes))
 
 
 def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:

@@ -62,31 +62,21 @@ def status(options: argparse.Namespace) -> int:
     for case in bar(len(cases), "coating", False if options.json else None, iterable=cases):
         plan, folder = coating_plan(config, case), results / "runs" / case.name
         taken[case.name] = inventory.take(config, plan, folder, digest, known)
-    of_rows = [
-        part
-        for inventories in plugins.loaded("INVENTORIES").values()
-        for part in inventories(config, results, digest, known)
-    ]
+    counting = plugins.loaded("INVENTORIES").values()
+    of_rows = [part for count in counting for part in count(config, results, digest, known)]
     counts = {name: part.counts for name, part in taken.items()}
+    total = inventory.total(counts.values())
     rows = inventory.total(part.counts for part in of_rows) if of_rows else None
     parts = [*taken.values(), *of_rows, *faults]
     lost_files = [path for part in faults for path in part.lost_files]
     damaged = list(dict.fromkeys(path for part in parts for path in part.damaged))
     unreadable = list(dict.fromkeys(line for part in parts for line in part.unreadable))
-    if options.discard:
-        for path in damaged:
-            if path.parent.resolve().is_relative_to(results.resolve()):  # not beyond a link
-                path.unlink(missing_ok=True)
-    total = inventory.total(counts.values())
+    for path in damaged if options.discard else ():
+        if path.parent.resolve().is_relative_to(results.resolve()):  # not beyond a link
+            path.unlink(missing_ok=True)
     if options.json:
-        figures = total | {
-            "note": note,
-            "damaged": [str(path) for path in damaged],
-            "discarded": options.discard,
-            "lost": [str(path) for path in lost_files],
-            "cannot_be_read": unreadable,
-            "coatings": counts,
-        }
+        figures = total | {"note": note, "damaged": list(map(str, damaged)), "discarded": options.discard}
+        figures |= {"lost": list(map(str, lost_files)), "cannot_be_read": unreadable, "coatings": counts}
         print(json.dumps(figures | ({"rows_of_blades": rows} if rows else {}), indent=2))
         return 2 if unreadable else 0
     width = max(map(len, ["coating", *counts]))
@@ -103,18 +93,16 @@ def status(options: argparse.Namespace) -> int:
         print(f"rows of blades: {counted}, {rows['bytes'] / 1e6:.1f} MB")
     if total["unconverged"]:
         print(f"runs with steps whose contact forces did not converge: {total['unconverged']}")
-    if total["unbalanced"]:
-        print(
-            f"runs whose energy ledger misses more than {UNBALANCED:g} of the work exchanged: "
-            f"{total['unbalanced']}; do not trust them, or lower solver.tolerance"
-        )
+    if number := total["unbalanced"]:
+        missed = f"runs whose energy ledger misses more than {UNBALANCED:g} of the work exchanged: {number}"
+        print(f"{missed}; do not trust them, or lower solver.tolerance")
+    state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"
     if damaged:
-        state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"
-        print(f"{state}; then run snakemake again, which makes them alone:")
-        print("\n".join(f"  {path}" for path in damaged))
+        title = f"{state}; then run snakemake again, which makes them alone:"
+        print("\n  ".join([title, *map(str, damaged)]))
     if lost_files:
-        print("listed by their manifest, but not there; run snakemake again, which computes them alone:")
-        print("\n".join(f"  {path}" for path in lost_files))
+        title = "listed by their manifest, but not there; run snakemake again, which computes them alone:"
+        print("\n  ".join([title, *map(str, lost_files)]))
     for line in filter(None, (note, *notes)):
         print(line)
     if unreadable:
