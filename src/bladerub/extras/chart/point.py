@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.io import hdf5
-from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -123,14 +122,11 @@ def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: 
 
 
 def read(path: str | Path) -> ChartPoint:
-    """Read a point written by `write`; raises `OSError` if the file is missing, damaged or none."""
+    """Read a point written by `write`; raises `OSError` if the file is missing or damaged."""
     data, attributes = hdf5.read(path)
-    try:
-        return ChartPoint(
-            case=CoatingCase.described(attributes),
-            **{name: data[name] for name in ("f_omega", "C1", "spectrum_order", "spectrum_amplitude")},
-            uniform=data["uniform"].astype(bool),
-            measures={name: data[name] for name in MEASURES},
-        )
-    except KeyError as error:
-        raise DamagedFile(f"{path}: not a point of the chart, {error} is missing") from error
+    return ChartPoint(
+        case=CoatingCase.described(attributes),
+        **{name: data[name] for name in ("f_omega", "C1", "spectrum_order", "spectrum_amplitude")},
+        uniform=data["uniform"].astype(bool),
+        measures={name: data[name] for name in MEASURES},
+    )
