@@ -68,14 +68,10 @@ class Ensemble(Shown, Comparable):
 
         ``spectral_peak`` (m) is the largest amplitude of the spectrum above order 0.5.
         """
-        rows = [
-            {
-                "start": start,
-                "spectral_peak": spectral_peak(run.spectrum.index.to_numpy(), run.spectrum.to_numpy())[1],
-                **run.summary(self.planned.config),
-            }
-            for start, run in zip(self.start, self.runs, strict=True)
-        ]
+        rows = []
+        for start, run in zip(self.start, self.runs, strict=True):
+            _, height = spectral_peak(run.spectrum.index.to_numpy(), run.spectrum.to_numpy())
+            rows.append({"start": start, "spectral_peak": height, **run.summary(self.planned.config)})
         return pd.DataFrame(rows)
 
     def bands(self) -> pd.DataFrame:
@@ -103,8 +99,7 @@ class Ensemble(Shown, Comparable):
         for number, (start, run) in enumerate(zip(self.start.tolist(), self.runs, strict=True)):
             prefix = _prefix(number)
             together |= runs_of(run, prefix)
-            attributes = run.attributes | {_START: start}
-            together[prefix] = replace(run.stored, attributes=attributes)
+            together[prefix] = replace(run.stored, attributes=run.attributes | {_START: start})
         write_runs(path, together, provenance(self.planned.config.plain()))
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
@@ -169,13 +164,11 @@ def simulate_ensemble(
     blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     if own is not None:
         _check_own(blade, run, own)
+    known = [] if own is None else [own]
     start = np.append(0.0, starts(run.config.plugged("ensemble"), run.case, run.f_omega, members))
-    drawn = [
-        replace(run, spec=replace(run.spec, initial_displacement=displacement))
-        for displacement in start.tolist()[own is not None :]
-    ]
-    runs = solve_all(blade, drawn, jobs, follow, progress)
-    return Ensemble(run, start, tuple(runs if own is None else [own, *runs]))
+    specs = [replace(run.spec, initial_displacement=u) for u in start.tolist()[len(known) :]]
+    runs = solve_all(blade, [replace(run, spec=spec) for spec in specs], jobs, follow, progress)
+    return Ensemble(run, start, (*known, *runs))
 
 
 def read_ensemble(path: str | Path, run: StudyRun) -> Ensemble:

@@ -115,16 +115,12 @@ class Map(Shown):
         amplitude); `max_frequency` is the right end of the axis, normalised. Raises `InputError` if either
         is not possible.
         """
-        if amplitude_range is not None and not (
-            np.shape(amplitude_range) == (2,) and _ascend(*amplitude_range)
-        ):
-            raise InputError(
-                "amplitude_range", amplitude_range, "must be two lengths above 0, ascending, in m"
-            )
+        largest = plots.scales.greatest(self.coating.spectrum_amplitude)
+        ends = (1e-3 * largest, largest) if amplitude_range is None else amplitude_range
+        if amplitude_range is not None and not (np.shape(ends) == (2,) and _ascend(*ends)):
+            raise InputError("amplitude_range", ends, "must be two lengths above 0, ascending, in m")
         if not _ascend(max_frequency):
             raise InputError("max_frequency", max_frequency, "must be a number above 0")
-        largest = plots.scales.greatest(self.coating.spectrum_amplitude)
-        ends = amplitude_range or (1e-3 * largest, largest)
         return plots.spectrum.spectrum_map(self.coating, ends, max_frequency, self._scales, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
@@ -251,9 +247,8 @@ def simulate_speeds(
     if len(runs) < 2:
         raise InputError("speeds", [run.f_omega for run in runs], "must be two or more different ones")
     blade.check_speed("speeds", runs[-1].f_omega)
-    results = solve_all(blade, runs, jobs, follow, progress)
+    results, f_omega = solve_all(blade, runs, jobs, follow, progress), [run.f_omega for run in runs]
     stored = [run.stored for run in results]
     longer = [run.longer.stored if run.longer else None for run in results]
-    f_omega = [run.f_omega for run in runs]
     collected = maps.collect(coating.config, coating.case, blade.reduced, f_omega, stored, longer)
     return Map(collected, blade.f1_hz, coating.config)

@@ -93,10 +93,8 @@ class RowOption(RunOption):
             cells = [f"{factor * blade[name]:{form}}" for name, factor, form in _OF_BLADES.values()]
             rows.append((*cells[:-1], cells[-1] + (" unbounded" if blade["unbounded"] else "")))
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        return [
-            title,
-            *("  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows),
-        ]
+        aligned = ((f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows)
+        return [title, *map("  ".join, aligned)]
 
 
 def _settings(options: argparse.Namespace) -> dict[str, Any]:

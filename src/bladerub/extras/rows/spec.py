@@ -143,12 +143,11 @@ class Row:
     def from_json(cls, text: str) -> Self:
         """Read what `to_json` wrote; raises `KeyError`, `TypeError` or `ValueError` on anything else."""
         document = json.loads(text)
-        blades = []
         for entry in document["blades"]:
             if isinstance(entry["frequency"], list):
                 entry["frequency"] = tuple(entry["frequency"])
-            blades.append(RowBlade(**entry))
-        return cls(tuple(blades), document["disk"] and Disk.of(document["disk"]["stiffness"]))
+        blades = tuple(RowBlade(**entry) for entry in document["blades"])
+        return cls(blades, document["disk"] and Disk.of(document["disk"]["stiffness"]))
 
     @classmethod
     def even(
@@ -176,14 +175,9 @@ class Row:
                 raise ValueError(f"row: {shape} values of {name}; must be 1 or {n_blades}")
             array = np.broadcast_to(array, (n_blades, *array.shape[1:]))
             values[name] = [tuple(entry) if isinstance(entry, list) else entry for entry in array.tolist()]
-        error = values.pop("angle_error")
-        blades = (
-            RowBlade(
-                2 * np.pi * index / n_blades + error[index], *(column[index] for column in values.values())
-            )
-            for index in range(n_blades)
-        )
-        return cls(tuple(blades), disk)
+        errors = values.pop("angle_error")
+        angles = [2 * np.pi * index / n_blades + error for index, error in enumerate(errors)]
+        return cls(tuple(map(RowBlade, angles, *values.values())), disk)
 
     @classmethod
     def drawn(
