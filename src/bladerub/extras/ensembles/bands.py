@@ -28,7 +28,6 @@ from bladerub.settings.study import Config
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, modulus_unit
-from bladerub.study.growth import Verdict
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
 from bladerub.study.variants import plain, with_variant
@@ -130,23 +129,20 @@ def _run_bands(
     lobes = np.stack([coating.lobes[places], *(member.lobes for member in ensemble.members)])
     followed = np.isin(coating.f_omega[places], judged(config, coating))
     for index, drawn in enumerate(zip(*verdicts, strict=True)):
+        growth = band([verdict.growth.per_revolution for verdict in drawn])
+        shares = np.mean([(verdict.divergent, verdict.saturating) for verdict in drawn], axis=0)
         yield {
             **vars(coating.case),
             "f_omega": coating.f_omega[places[index]],
             "growth_per_revolution": drawn[0].growth.per_revolution,
             "draws": len(drawn),
-            **(_judgement(drawn) if followed[index] else dict.fromkeys(JUDGED_COLUMNS, math.nan)),
+            **dict.fromkeys(JUDGED_COLUMNS, math.nan),
+            **(dict(zip(JUDGED_COLUMNS, (*shares, *growth), strict=True)) if followed[index] else {}),
             **{f"max_wear_{end}": value for end, value in band(max_wear[:, index])._asdict().items()},
             "lobes_lowest": int(lobes[:, index].min()),
             "lobes_highest": int(lobes[:, index].max()),
             "max_wear_error": ERROR * abs(ensemble.refined.max_wear[index] - max_wear[0, index]),
         }
-
-
-def _judgement(drawn: Sequence[Verdict]) -> dict[str, float]:
-    growth = band([verdict.growth.per_revolution for verdict in drawn])
-    shares = np.mean([(verdict.divergent, verdict.saturating) for verdict in drawn], axis=0)
-    return dict(zip(JUDGED_COLUMNS, (*shares, *growth), strict=True))
 
 
 def of_findings(

@@ -164,11 +164,11 @@ def simulate_ensemble(
     blade.check_speed("f_omega", run.f_omega, run.f1_hz)
     if own is not None:
         _check_own(blade, run, own)
-    known = [] if own is None else [own]
+    runs = [] if own is None else [own]
     start = np.append(0.0, starts(run.config.plugged("ensemble"), run.case, run.f_omega, members))
-    specs = [replace(run.spec, initial_displacement=u) for u in start.tolist()[len(known) :]]
-    runs = solve_all(blade, [replace(run, spec=spec) for spec in specs], jobs, follow, progress)
-    return Ensemble(run, start, (*known, *runs))
+    specs = [replace(run.spec, initial_displacement=u) for u in start.tolist()[len(runs) :]]
+    runs += solve_all(blade, [replace(run, spec=spec) for spec in specs], jobs, follow, progress)
+    return Ensemble(run, start, tuple(runs))
 
 
 def read_ensemble(path: str | Path, run: StudyRun) -> Ensemble:

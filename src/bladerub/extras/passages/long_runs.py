@@ -149,10 +149,10 @@ def table(config: Config, coatings: Iterable[LongRuns]) -> pd.DataFrame:
             run = {name: getattr(long, name)[index] for name in ("f_omega", "why", "max_wear", "status")}
             amplitude, seconds = long.revolution_amplitude[index], long.seconds[index, :revolutions]
             run["verdict"], verdict = verdict_after(config, amplitude, revolutions)
-            seconds, whole = seconds[np.isfinite(seconds)], amplitude[:revolutions]
-            whole = whole[np.isfinite(whole)]
+            seconds, amplitude = seconds[np.isfinite(seconds)], amplitude[:revolutions]
+            amplitude = amplitude[np.isfinite(amplitude)]
             run["growth_per_revolution"] = verdict.growth.per_revolution
-            run["late_amplitude"] = whole[-last:].mean() if whole.size else np.nan
+            run["late_amplitude"] = amplitude[-last:].mean() if amplitude.size else np.nan
             run["ms_per_revolution"] = 1e3 * seconds[-1] / seconds.size if seconds.size else np.nan
             rows.append(asdict(long.case) | run | {"revolutions": revolutions})
     return with_variant(pd.DataFrame(rows), COLUMNS)

@@ -1,7 +1,7 @@
 """Tables of an identification: sets, what the waves leave, targets, exclusive claims, candidates."""
 
 import itertools
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +9,7 @@ import pandas as pd
 
 from bladerub.extras.variations import emulator as emulation
 from bladerub.extras.variations import waves
-from bladerub.extras.variations.emulator import Emulator, HeldOut, Predicted
+from bladerub.extras.variations.emulator import HeldOut, Predicted
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import Plan
 from bladerub.extras.variations.targets import TARGETS
@@ -18,6 +18,7 @@ from bladerub.study.findings.claim import YES, claim_of
 PREDICTED = ("C6", "C9", "C12")
 """Claims without a target."""
 
+_RANGES = ["factor", "unit", "lowest", "highest", "left_low", "left_median", "left_high"]
 _RARE = 0.05  # a claim that holds in fewer sets says nothing about which others it goes with
 _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusion
 
@@ -41,32 +42,26 @@ def left(plan: Plan, wave: int, measured: pd.DataFrame, positions: pd.DataFrame)
     remainder = waves.remaining(plan, emulators)
     drawn, first = waves.draw(plan, wave, remainder, emulators, simulated), plan.first(wave + 1)
     summary = (wave, len(measured), remainder.given_up, remainder.share)
-    return {
-        "left": pd.DataFrame([summary], columns=["wave", "sets", "given_up", "remaining"]),
-        "emulators": _emulated(wave, emulators, remainder),
-        "ranges": _ranges(plan, remainder),
-        "next_sets": waves.as_table(plan, first, drawn),
-        "predictions": _predictions(emulators, first, drawn),
-    }
-
-
-def _emulated(wave: int, emulators: Mapping[str, Emulator], remainder: waves.Remaining) -> pd.DataFrame:
-    """Say how well each target is predicted (`HeldOut`), and the share of the volume that it leaves."""
-    rows = [
+    emulated = [
         (wave, name, *emulation.held_out(emulator), remainder.plausible[name])
         for name, emulator in emulators.items()
     ]
-    return pd.DataFrame(rows, columns=["wave", "target", *HeldOut._fields, "plausible"])
-
-
-def _predictions(emulators: Mapping[str, Emulator], first: int, drawn: np.ndarray) -> pd.DataFrame:
-    """Predict the targets of the sets `drawn` (n, d), numbered from `first`, before they are simulated."""
-    rows = [
+    predicted = [
         (number, name, mean, deviation)
         for name, emulator in emulators.items()
         for number, (mean, deviation) in enumerate(zip(*emulator.predict(drawn), strict=True), first)
     ]
-    return pd.DataFrame(rows, columns=["set", "target", "predicted_value", "deviation"])
+    ranges = []
+    for (name, factor), points in zip(plan.factors.items(), remainder.points.T, strict=True):
+        ends = (0.0, 1.0, *np.quantile(points, [0.05, 0.5, 0.95]))
+        ranges.append((name, factor.unit, *(factor.first_value(float(end)) for end in ends)))
+    return {
+        "left": pd.DataFrame([summary], columns=["wave", "sets", "given_up", "remaining"]),
+        "emulators": pd.DataFrame(emulated, columns=["wave", "target", *HeldOut._fields, "plausible"]),
+        "ranges": pd.DataFrame(ranges, columns=_RANGES),
+        "next_sets": waves.as_table(plan, first, drawn),
+        "predictions": pd.DataFrame(predicted, columns=["set", "target", "predicted_value", "deviation"]),
+    }
 
 
 def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
@@ -91,16 +86,6 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
-
-
-def _ranges(plan: Plan, remainder: waves.Remaining) -> pd.DataFrame:
-    """Say what is left of the range of each factor: its own, and the middle 90 % of what is left."""
-    rows = []
-    for (name, factor), positions in zip(plan.factors.items(), remainder.points.T, strict=True):
-        ends = (0.0, 1.0, *np.quantile(positions, [0.05, 0.5, 0.95]))
-        rows.append((name, factor.unit, *(factor.first_value(float(position)) for position in ends)))
-    columns = ["factor", "unit", "lowest", "highest", "left_low", "left_median", "left_high"]
-    return pd.DataFrame(rows, columns=columns)
 
 
 def exclusions(verdicts: pd.DataFrame) -> pd.DataFrame:
