@@ -66,7 +66,7 @@ rule chart_stress:
         blade=rules.blade.output.reduced_model,
         mesh=rules.blade.output.mesh,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extras.chart.table"),
+        analysing=files_behind("extras.chart.table", "extras.stress.run"),
     output:
         **described(table=f"{TABLES}/chart_stress.csv"),
     log:

@@ -128,18 +128,13 @@ def keys_of(path: str) -> list[str | int]:
     return [name or int(index) for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path)]
 
 
-Factors = Annotated[
-    dict[Name, Factor],
-    Field(min_length=1, max_length=100, description="Choices that the paper leaves open, by name."),
-]
-
-
 class DrawnPlan(Section):
     """Factors, whose values are drawn."""
 
     seed: Seed
     """Of everything that is drawn."""
-    factors: Factors
+    factors: dict[Name, Factor] = Field(min_length=1, max_length=100)
+    """Choices that the paper leaves open, by name."""
 
     def problems(self) -> Iterator[str]:
         """Yield what the models cannot say."""

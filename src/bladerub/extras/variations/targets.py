@@ -72,13 +72,13 @@ def _refined_maximum(f_omega: np.ndarray, values: np.ndarray) -> tuple[float, fl
     if not np.isfinite(values).any() or np.nanmax(values) <= 0:
         raise NotMeasurable("nothing to find a maximum in")
     best = int(np.nanargmax(values))
-    window = slice(max(best - 1, 0), best + 2)
+    highest, window = (float(f_omega[best]), float(values[best])), slice(max(best - 1, 0), best + 2)
     f, height = f_omega[window], values[window]
     if f.size < 3 or not np.all(height > 0):
-        return float(f_omega[best]), float(values[best])
+        return highest
     curve = np.polynomial.Polynomial.fit(f - f[1], np.log(height), 2).convert().coef
     if curve.size < 3 or curve[2] >= 0:
-        return float(f_omega[best]), float(values[best])
+        return highest
     offset = float(np.clip(-curve[1] / (2 * curve[2]), f[0] - f[1], f[2] - f[1]))
     return float(f[1] + offset), float(np.exp(curve[0] + curve[1] * offset + curve[2] * offset**2))
 
@@ -96,6 +96,7 @@ def _dominance(evidence: Evidence, case: CoatingCase, inside: np.ndarray, harmon
         raise NotMeasurable(f"{case.name} has no run at these speeds")
     power = np.abs(np.fft.rfft(evidence.map(case).wear[inside])[:, 1:]) ** 2
     share = power / np.maximum(power.sum(axis=1, keepdims=True), np.finfo(float).tiny)
+    # nodal diameters of the casing do not compete: they are in every pattern, and no lobes of their own
     aside = {harmonic, *evidence.config.casings[case.casing].nodal_diameters}
     others = np.delete(share, [number - 1 for number in aside], axis=1)
     return share[:, harmonic - 1] - others.max(axis=1)
