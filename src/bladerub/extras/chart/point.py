@@ -1,8 +1,8 @@
 """One point of the chart, a coating: its engine orders and speeds, what is kept of its runs, and its file."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -27,17 +27,6 @@ MEASURES = {
     "energy_sliding": ("J", "energy dissipated by the tangential resistance of the coating"),
 }
 """What is kept of each run, with unit and meaning; NaN at speeds that were not run."""
-
-_DATASETS = {
-    "f_omega": ("1", "rotational frequency over the first frequency at rest"),
-    "spectrum_order": ("1", "engine order"),
-    "C1": ("1", "first eigenfrequency at speed over that at rest"),
-    "spectrum_amplitude": (
-        "m",
-        "largest amplitude of the radial displacement of node 1 on the engine order; NaN: not run",
-    ),
-    "uniform": ("1", "1 at the speeds of which shares are"),
-}
 
 KEY = "cell_key"
 """Attribute of the file of a point: its key in the store (`bladerub.study.cache`)."""
@@ -90,16 +79,20 @@ class PointRow(NamedTuple):
         return [ListedFile(folder.parent / POINTS / self.file, self.bytes, self.checksum)]
 
 
+_OVER_SPEED = ("f_omega",)
+_LARGEST = "largest amplitude of the radial displacement of node 1 on the engine order; NaN: not run"
+
+
 @dataclass(frozen=True)
 class ChartPoint:
     """What the chart keeps of one coating, over all n speeds of the study; NaN where not run."""
 
     case: CoatingCase
-    f_omega: np.ndarray  # (n,), normalised
-    C1: np.ndarray  # (n,), first eigenfrequency of the blade, normalised
-    spectrum_order: np.ndarray  # (k,), engine orders of the chart
-    spectrum_amplitude: np.ndarray  # (n, k), largest within ``analysis.peaks.order_halfwidth`` of each, m
-    uniform: np.ndarray  # (n,) of bool, the speeds of which the shares are
+    f_omega: Annotated[np.ndarray, _OVER_SPEED, "1", "rotational frequency over the first frequency at rest"]
+    C1: Annotated[np.ndarray, _OVER_SPEED, "1", "first eigenfrequency at speed over that at rest"]
+    spectrum_order: Annotated[np.ndarray, ("spectrum_order",), "1", "engine order"]
+    spectrum_amplitude: Annotated[np.ndarray, (*_OVER_SPEED, "spectrum_order"), "m", _LARGEST]
+    uniform: Annotated[np.ndarray, _OVER_SPEED, "1", "1 at the speeds of which shares are"]  # here of bool
     measures: dict[str, np.ndarray]  # (n,), by `MEASURES`
 
     @property
@@ -108,25 +101,24 @@ class ChartPoint:
         return np.isfinite(self.measures["revolutions"])
 
 
+_ARRAYS = {field.name: field.type.__metadata__ for field in fields(ChartPoint)[1:-1]}
+DATASETS = _ARRAYS | {
+    name: (_OVER_SPEED, unit, f"{what}; NaN: not run") for name, (unit, what) in MEASURES.items()
+}
+"""Dimensions, unit and meaning of each dataset."""
+
+
 def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: Config) -> None:
     """Write `point` under its `key`, and that of its runs, whichever of their speeds the search chose."""
-    described = _DATASETS | {name: (unit, f"{what}; NaN: not run") for name, (unit, what) in MEASURES.items()}
     values = vars(point) | point.measures | {"uniform": point.uniform.astype(np.int8)}
-    dims = {"spectrum_order": ("spectrum_order",), "spectrum_amplitude": ("f_omega", "spectrum_order")}
-    variables = {
-        name: Variable(dims.get(name, ("f_omega",)), values[name], unit, long_name)
-        for name, (unit, long_name) in described.items()
-    }
-    about = asdict(point.case) | {KEY: key, RUNS_KEY: runs_key}
-    hdf5.write(path, variables, about, provenance(config.plain()))
+    variables = {name: Variable(dims, values[name], *about) for name, (dims, *about) in DATASETS.items()}
+    attributes = asdict(point.case) | {KEY: key, RUNS_KEY: runs_key}
+    hdf5.write(path, variables, attributes, provenance(config.plain()))
 
 
 def read(path: str | Path) -> ChartPoint:
     """Read a point written by `write`; raises `OSError` if the file is missing or damaged."""
     data, attributes = hdf5.read(path)
-    return ChartPoint(
-        case=CoatingCase.described(attributes),
-        **{name: data[name] for name in ("f_omega", "C1", "spectrum_order", "spectrum_amplitude")},
-        uniform=data["uniform"].astype(bool),
-        measures={name: data[name] for name in MEASURES},
-    )
+    arrays = {name: data[name] for name in _ARRAYS} | {"uniform": data["uniform"].astype(bool)}
+    measures = {name: data[name] for name in MEASURES}
+    return ChartPoint(CoatingCase.described(attributes), **arrays, measures=measures)
