@@ -87,7 +87,7 @@ def forecast(
             simulated += left.get(coating, 1) * (row.blades if row else 1) * costs.runs.get(coating, mean)
         elif rule in costs.further:  # of a coating whose own runs are done, what was listed once is too
             is_listed = (results / "runs" / str(coating) / rule / "manifest.tsv").exists()
-            simulated += 0 if is_listed and not left[coating] else costs.further[rule].get(coating, 0)
+            simulated += 0 if is_listed and not left.get(coating, 1) else costs.further[rule].get(coating, 0)
     revolutions = config.solver.revolutions
     longer = max(config.analysis.divergence.confirmation_revolutions - revolutions, 0)
     seconds += simulated * (revolutions + GROWING * longer) * SECONDS_PER_REVOLUTION

@@ -81,6 +81,10 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(config, monkeypatc
     members.parent.mkdir(parents=True)
     members.touch()
     assert forecast(study, jobs) == line
+    beside = tmp_path / "runs" / "2nd_E3_K0.5_theta0" / "ensemble" / "manifest.tsv"
+    beside.parent.mkdir(parents=True)
+    beside.touch()  # of a coating that the study does not have
+    assert "1 job, about 1 min" in forecast(study, [("ensemble", "2nd_E3_K0.5_theta0")])
     counts["done"] = 100
     assert "2 jobs, about 1 min" in forecast(study, [JOBS[0], JOBS[2]])
 
