@@ -20,10 +20,8 @@ FOLDS = 5
 """Number of parts that the sets are split into, each predicted from the others."""
 
 _SMOOTHNESS = 2.5
-_LENGTHS = (0.1, 10.0)  # of the covariance in ranges of a factor: at the longest its effect is linear
-_FIRST_LENGTH = 2.0
-_NUGGETS = (1e-6, 10.0)  # of the variance of the smooth part
-_FIRST_NUGGET = 0.1
+_LENGTH, _LENGTHS = 2.0, (0.1, 10.0)  # first and bounds, in ranges of a factor: the longest effect is linear
+_NUGGET, _NUGGETS = 0.1, (1e-6, 10.0)  # likewise, of the variance of the smooth part
 
 
 class Predicted(NamedTuple):
@@ -115,8 +113,8 @@ def _fit(
 ) -> openturns.GaussianProcessFitterResult:
     n_factors, optimise = positions.shape[1], covariance is None
     if optimise:
-        covariance = openturns.MaternModel([_FIRST_LENGTH] * n_factors, [1.0], _SMOOTHNESS)
-        covariance.setNuggetFactor(_FIRST_NUGGET)
+        covariance = openturns.MaternModel([_LENGTH] * n_factors, [1.0], _SMOOTHNESS)
+        covariance.setNuggetFactor(_NUGGET)
         covariance.activateNuggetFactor(True)
     points, outputs = openturns.Sample(positions), openturns.Sample(values[:, None])
     basis = openturns.LinearBasisFactory(n_factors).build()
