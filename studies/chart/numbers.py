@@ -1,5 +1,7 @@
 """Numbers of studies/chart/README.md."""
 
+from functools import partial
+
 from bladerub.extras.chart.settings import Limits
 from bladerub.extras.chart.table import broken_limits
 from docs.numbers import decimals, fixed, headings, mm, peak, percent, row, rows, span, table
@@ -10,41 +12,21 @@ def numbers(tables):
     chart, explanation = tables["chart"], tables["chart_explanation"]
     agreement = tables["chart_agreement"]
     agreeing = rows(agreement, disagreement=0)["quantity"].value_counts()
+    search = headings("quantity", "coatings") | {"exact": "found exactly", "within_1_percent": "within 1 %"}
+    search["within_5_percent"] = "within 5 %"
+    search["worst_missed"] = ("worst, % too low", partial(percent, digits=1))
+    by_step = headings("theta", "order") | {"speed_step": "step", "E": "E of the highest", "K": "its K"}
+    by_step |= {"E_T": ("its E_T", decimals(2)), "amplitude": ("height, mm", partial(mm, digits=2))}
+    by_step |= {"f_peak": ("speed", decimals(3)), "neighbour_spread": ("neighbours differ by, %", percent)}
+    by_step |= {"height_lost": ("height lost, %", percent), "K_shift": ("K off by the factor", decimals(1))}
     return (
         {
             "commit": chart.attrs["commit"],
             "points": fixed(len(chart)),
             "runs": fixed(chart["runs"].sum()),
             "runs_a_point": fixed(chart["runs"].mean()),
-            "placement": table(
-                tables["chart_placement_summary"],
-                headings("quantity", "coatings")
-                | {
-                    "exact": "found exactly",
-                    "within_1_percent": "within 1 %",
-                    "within_5_percent": "within 5 %",
-                }
-                | {"worst_missed": ("worst, % too low", lambda missed: percent(missed, 1))},
-            ),
-            "ridge_by_step": table(
-                tables["chart_ridge_summary"],
-                headings("theta", "order")
-                | {
-                    "speed_step": "step",
-                    "E": "E of the highest",
-                    "K": "its K",
-                    "E_T": ("its E_T", decimals(2)),
-                }
-                | {
-                    "amplitude": ("height, mm", lambda height: mm(height, 2)),
-                    "f_peak": ("speed", decimals(3)),
-                }
-                | {"neighbour_spread": ("neighbours differ by, %", percent)}
-                | {
-                    "height_lost": ("height lost, %", percent),
-                    "K_shift": ("K off by the factor", decimals(1)),
-                },
-            ),
+            "placement": table(tables["chart_placement_summary"], search),
+            "ridge_by_step": table(tables["chart_ridge_summary"], by_step),
         }
         | _amplitudes(chart, tables["peaks"])
         | _ridge(explanation)

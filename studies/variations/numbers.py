@@ -45,11 +45,8 @@ def _robustness(robustness, findings):
             robustness,
             {"id": "claim", "samples": "samples"}
             | {f"{word}_share": (f"{word}, %", percent) for word in ("yes", "partly", "no")}
-            | {
-                "reference": "own values",
-                "predicted": ("predicted", decimals(2)),
-                "decided_by": "decided by",
-            },
+            | {"reference": "own values", "predicted": ("predicted", decimals(2))}
+            | {"decided_by": "decided by"},
         ),
         "growth_at_resonance": percent(rows(robustness, id="C11g")["yes_share"].iloc[0]),
         "other_verdicts": ", ".join(judged[judged["reference"] != judged["holds"]]["id"]),
