@@ -56,10 +56,7 @@ class Costs(NamedTuple):
 
 
 def threads_for(cost: float, total: float, cores: int | None) -> int:
-    """Return the threads of a job that has `cost` of the `total` of all jobs, on so many `cores`, if known.
-
-    One, unless the job is a large part of what a core has to do: it would end long after all others.
-    """
+    """Return the threads of a job: one, unless it is so large that it would end long after all others."""
     if not cores:
         return 1
     return max(1, min(cores, math.ceil(FEWEST * cost / total * cores - 1)))

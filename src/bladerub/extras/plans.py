@@ -15,8 +15,8 @@ from bladerub.settings.study import Config
 def read_plan(path: str | Path, kind: Any, key: str | None = None, study: Config | None = None) -> Located:
     """Read and check a plan, which varies a config: the YAML file at `path`, of the model `kind`.
 
-    `key` is that of the config that names the file, reported if it cannot be read. Without the `study` a
-    speed, E or K of the plan is a plain number. Raises `ConfigError` with every problem found.
+    `key` of the config names the file. Without the `study` a speed, E or K of the plan is a plain number.
+    Raises `ConfigError` with every problem found.
     """
     plan, _ = converted(files.read(path, key), kind, study)
     of_study = study and study.plain()

@@ -81,8 +81,7 @@ def compute_missing(
 ) -> list[PointRow]:
     """Compute those points of a column whose file is missing or stale, as `bladerub.study.job` does runs.
 
-    `plan` is of `plan_column`, `folder` that of the points of the whole chart. `threads` points are computed
-    at once, or all together by a solver that does so. The rows are for the manifest of the column.
+    `threads` points are computed at once, or all together by a solver that does so. Returns the manifest.
     """
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     solver = solver_of(config)

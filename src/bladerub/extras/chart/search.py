@@ -107,10 +107,7 @@ def sought(config: Config, response: Response, peak: np.ndarray) -> dict[str, np
 
 
 def next_speeds(computed: np.ndarray, curves: Iterable[np.ndarray], share: float) -> list[int]:
-    """Return the speeds to run next, as ascending indices into the grid; none once all maxima are enclosed.
-
-    `computed` (n,) are the speeds that were run; maxima below `share` of the greatest are left as they are.
-    """
+    """Return the speeds to run next, as ascending indices into the grid; none once maxima are enclosed."""
     indices, midpoints = np.flatnonzero(computed), set()
     for curve in curves:
         values = np.nan_to_num(curve[indices], nan=-np.inf)

@@ -60,10 +60,7 @@ def contact_stiffness(E: float, K: float) -> float:
 
 
 def explanation(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
-    """Look at the run at the peak of each engine order: a row per point and order, with `EXPLANATION`.
-
-    Energies are means over the run, in which a vibration on the order k has k cycles per revolution.
-    """
+    """Look at the run at the peak of each engine order: a row per point and order, with `EXPLANATION`."""
     rows = []
     for point, order in itertools.product(points, chart_orders(config)):
         about = row(point, order, config.analysis.peaks) | {
@@ -74,7 +71,7 @@ def explanation(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
         if about["reason"]:
             continue  # no peak to look at
         index = int(np.flatnonzero(point.f_omega == about["f_peak"])[0])
-        cycles = order * point.measures["revolutions"][index]
+        cycles = order * point.measures["revolutions"][index]  # of a vibration on the order, over the run
         about["lobes"] = int(point.measures["lobes"][index])
         about |= {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][index] / cycles for loss in LOSSES}
     return pd.DataFrame(rows, columns=EXPLANATION)
@@ -97,11 +94,7 @@ def share(blade: ReducedBlade, theta: float, f_omega: float) -> float:
 
 
 def table(peaks: pd.DataFrame, blade: ReducedBlade) -> pd.DataFrame:
-    """Sum up for each order and θ how closely f_k follows each of `MODULI`, and how θ changes it.
-
-    ``modulus_ratio`` is the median of those at each f_k that both θ have where stiffening is `SMALL`,
-    ``modulus_ratio_by_share`` is the ratio expected from `share`.
-    """
+    """Sum up for each order and θ how closely f_k follows each of `MODULI`, and how θ changes it."""
     rows = []
     for order, of_order in peaks.groupby("order"):
         crossing, stiffened = float(of_order.f_crossing.mean()), of_order[is_stiffened(of_order)]

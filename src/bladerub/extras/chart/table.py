@@ -68,9 +68,8 @@ def table(config: Config, points: Iterable[ChartPoint]) -> pd.DataFrame:
 def stresses(mesh: str | Path, blade: ReducedBlade, config: Config, chart: pd.DataFrame) -> pd.DataFrame:
     """Find the largest alternating stress of each row of ``chart.csv``, to lay beside a fatigue limit.
 
-    No run of the chart keeps its motion. The runs with the greatest amplitude on each engine order and with
-    the greatest displacement are made again, two or three of some fifty; the stress at another speed may be
-    higher. A run that completes no revolution has none. `mesh` is the ``mesh.h5`` of the blade.
+    No run of the chart keeps its motion. Those with the greatest amplitude on each engine order and the
+    greatest displacement are made again, a few of some fifty; the stress at another speed may be higher.
     """
     from bladerub.extras.stress.run import BladeStress  # the chart itself does without
 

@@ -23,10 +23,7 @@ COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
 
 
 def table(benchmarks: str | Path, others: Iterable[str] = ()) -> pd.DataFrame:
-    """Collect the last records of all jobs of the rules of `STAGES` and `others`, a row a job.
-
-    In the folder `benchmarks` they are ``<rule>.tsv``, or ``<rule>/<job>.tsv``.
-    """
+    """Collect the last record of each job, ``<rule>.tsv`` or ``<rule>/<job>.tsv``, of these and `others`."""
     rows, stage_of = [], {rule: rule for rule in others} | STAGES
     for path in sorted(Path(benchmarks).rglob("*.tsv")):
         *rule, name = path.relative_to(benchmarks).with_suffix("").parts

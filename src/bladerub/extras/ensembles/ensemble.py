@@ -134,11 +134,7 @@ def make(
     report: Callable[[RunDone | str], None],
     threads: int = 1,
 ) -> list[ManifestRow]:
-    """Compute the members of a coating that are missing or stale, and collect all in the file `path`.
-
-    Returns the rows of their manifest. `coating` is its map, `runs_folder` that of its runs; other parameters
-    are those of `bladerub.study.job.compute_missing`.
-    """
+    """Compute what is missing of the members of a coating, by `compute_missing`; collect all in `path`."""
     if not config.ensemble.members:
         raise BadInput("ensemble.members = 0: must be at least 1, or there is no ensemble to make")
     folder, planned = Path(runs_folder) / FOLDER, plan(config, coating)

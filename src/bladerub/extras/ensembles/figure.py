@@ -16,10 +16,7 @@ _HATCH = {"fill": False, "edgecolor": "white", "linewidth": 0, "hatch": "////", 
 
 @styled
 def peak_bands(peaks: pd.DataFrame, unit: float) -> Figure:
-    """Draw Y_k and f_k over (E, K), each with half its band where that shows at the digits of the value.
-
-    `peaks` are of one casing and one theta. Half a band above 10 % of Y or 0.01 of f is hatched.
-    """
+    """Draw Y_k and f_k over (E, K) of one casing and θ, each with half its band where its digits show it."""
     figure = new_figure(PAGE, 0.98 * PAGE)
     for row, order in zip(figure.subplots(len(ORDERS), 2), ORDERS, strict=True):
         for axes, (quantity, scale) in zip(row, _SCALE.items(), strict=True):

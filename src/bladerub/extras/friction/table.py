@@ -20,10 +20,7 @@ _COMPARED = ["peak", "reversed", "status"]
 
 
 def table(pairs: Iterable[tuple[str | Path, str | Path]], revolutions: int) -> pd.DataFrame:
-    """Compare the runs of each pair of manifests, the second of Coulomb's law: a row per run, with `COLUMNS`.
-
-    Peaks are sought in the last `revolutions`.
-    """
+    """Compare the runs of pairs of manifests, the second by Coulomb's law, in the last `revolutions`."""
     tables = []
     for paths in pairs:
         constant, coulomb = (_runs(Path(path), revolutions) for path in paths)

@@ -58,10 +58,7 @@ DATASETS = {field.name: field.type.__metadata__ for field in fields(LongRuns) if
 
 
 def chosen(config: Config, coating: CoatingMap) -> dict[float, str]:
-    """Choose the runs of a coating that are repeated for longer: the reason for each, by speed.
-
-    These are its peaks, or where its orders meet C1 if it has none, and the completed runs that still grow.
-    """
+    """Choose the runs that are made for longer: peaks, and completed ones that grow; the reasons by speed."""
     peaks = peak_settings(config, coating.case.casing)
     reasons = {
         float(coating.f_omega[nearest_speed(coating, order, peaks)]): f"f{order:g}" for order in peaks.orders
@@ -120,11 +117,7 @@ def stops(config: Config) -> list[int]:
 
 
 def verdict_after(config: Config, amplitude: np.ndarray, revolutions: int) -> tuple[str, Verdict]:
-    """Judge the first `revolutions` of a long run.
-
-    It is ``free`` if the vibration has died out because the blade has worn the coating away (`DIED_OUT`), and
-    ``saturating`` if it grew in the revolutions of the study and no longer does.
-    """
+    """Judge the first `revolutions` of a long run; ``free``: the vibration has died out (`DIED_OUT`)."""
     settings, history = config.analysis.divergence, amplitude[:revolutions]
     status = "completed" if np.isfinite(history).all() else "unbounded"
     verdict = judge(history, status, settings)
@@ -139,10 +132,7 @@ def verdict_after(config: Config, amplitude: np.ndarray, revolutions: int) -> tu
 
 
 def table(config: Config, coatings: Iterable[LongRuns]) -> pd.DataFrame:
-    """Judge long runs after each of `stops`: a row per run and stop.
-
-    ``max_wear`` and ``status`` are of the whole run, all else of the revolutions until the stop.
-    """
+    """Judge long runs after each of `stops`; ``max_wear`` and ``status`` are of the whole run."""
     last, rows = config.analysis.divergence.revolutions, []
     for long in coatings:
         for index, revolutions in itertools.product(range(long.f_omega.size), stops(config)):

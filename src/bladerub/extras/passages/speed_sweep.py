@@ -55,10 +55,7 @@ class SpeedStep(NamedTuple):
 
 
 def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
-    """Divide a sweep of a blade of first frequency `f1_hz` (Hz) into steps of constant speed, each its mean.
-
-    The last is prolonged to the end of its revolution, the first one at least.
-    """
+    """Divide a sweep into steps of constant speed, the mean of each; `f1_hz` is of the blade at rest, Hz."""
     n_elements, start = spec.run.coating.n_elements, spec.run.f_omega
     n_steps_of_speed = max(1, int(np.ceil(abs(spec.f_end - start) / spec.speed_step - 1e-9)))
     edges = np.linspace(start, spec.f_end, n_steps_of_speed + 1)
@@ -73,10 +70,7 @@ def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def simulate_sweep(blade: ReducedBlade, spec: SweepSpec) -> SweepResult:
-    """Simulate contact while the speed changes.
-
-    Raises `ValueError` if a speed is outside the range of the blade, or the step too long for the scheme.
-    """
+    """Simulate contact while the speed changes; `ValueError` as `simulate`, if a speed is out of range."""
     n_elements, plan = spec.run.coating.n_elements, speed_steps(spec, blade.f1_hz)
     stage, work = _stage_at(blade, spec.run, plan[0].f_omega), 0.0
 

@@ -122,10 +122,7 @@ def read(path: str | Path) -> SpeedSweep:
 def table(
     config: Config, sweeps: Iterable[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]
 ) -> pd.DataFrame:
-    """Compare the peaks of sweeps with those at constant speed, in `maps`: a row per sweep and engine order.
-
-    Both are sought in the same window of speeds. A peak ``survives`` from the ratio ``sweeps.survival`` on.
-    """
+    """Compare peaks of sweeps with those at constant speed, in `maps`: a row per sweep and engine order."""
     settings, rows = config.analysis.peaks, []
     pairs = ((sweep, order) for sweep in sweeps for order in peak_orders(config, sweep.case.casing))
     for sweep, order in pairs:

@@ -137,10 +137,7 @@ RUNS = Path("rotor/runs")
 
 
 def read_plan(path: str | Path, config: Config) -> Plan:
-    """Read a plan (config/rotor.yaml says what it holds) for the study `config`.
-
-    Identical blades are one row, and the single nominal blade stands beside each combination.
-    """
+    """Read a plan for the study `config`; beside each combination stands its single nominal blade."""
     located = plans.read_plan(path, RotorPlan, study=config)
     plan = RotorPlan.model_validate(located.plain())
     of_patterns = plan.patterns.groups if plan.patterns else {}

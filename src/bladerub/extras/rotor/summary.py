@@ -78,11 +78,7 @@ def _measure(path: Path, analysis: Analysis) -> dict[str, Any]:
 
 
 def combinations(table: pd.DataFrame) -> pd.DataFrame:
-    """Sum up the draws of each combination, with `COLUMNS`.
-
-    Of each measure the median with its 95 % interval (``low``, ``high``), which holds whatever the
-    distribution, and the 5 and 95 % quantiles.
-    """
+    """Sum up the draws of each combination: medians, quantiles, and the 95 % interval of the median."""
     rows = []
     for what, of_what in table.groupby(WHAT, sort=False):
         counts = of_what["wear_harmonic"].value_counts()

@@ -125,10 +125,7 @@ def compute(
     keep_history: bool,
     progress: Callable[[int], None] | None = None,
 ) -> StoredRun:
-    """Simulate a row, and return what is stored of it; raises as `bladerub.extras.rows.row.simulate_row`.
-
-    It is the run of the blade that vibrates most, with the energy of the whole row and `DATASETS`.
-    """
+    """Simulate a row; what is stored is the run of the blade that vibrates most, with `DATASETS`."""
     from bladerub.extras.rows.row import simulate_row  # loads the compiler: who plans runs alone does without
 
     result = simulate_row(blade, spec, row, progress)

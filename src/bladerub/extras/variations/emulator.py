@@ -39,10 +39,7 @@ class HeldOut(NamedTuple):
 
 
 class Emulator:
-    """Gaussian process through `values` (n,) at `positions` (n, d); equal values are predicted as they are.
-
-    The `covariance` is fitted by maximum likelihood unless one is given.
-    """
+    """Gaussian process through `values` (n,) at `positions` (n, d), its `covariance` fitted unless given."""
 
     def __init__(
         self, positions: np.ndarray, values: np.ndarray, covariance: openturns.CovarianceModel | None = None

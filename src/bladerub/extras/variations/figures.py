@@ -75,10 +75,7 @@ def _draw_factors(axes, table: pd.DataFrame, indices: pd.DataFrame):
 def identification(
     plan: Plan, measured: pd.DataFrame, points: pd.DataFrame, candidates: pd.DataFrame
 ) -> Figure:
-    """Draw the targets of all sets above, and what is left of the range of each factor below.
-
-    The study's own set is the first; `points` are what is left, `candidates` the best sets (range fractions).
-    """
+    """Draw the targets of all sets, the study's own first, and below them what is left of each range."""
     rows, heights = -(-len(plan.factors) // _COLUMNS), 0.14 * measured.shape[1] + 0.8
     figure = style.new_figure(style.PAGE, heights + 1.0 * rows)
     above, below = figure.subfigures(2, 1, height_ratios=(heights, 1.0 * rows))

@@ -122,9 +122,8 @@ def judge(
 ) -> dict[str, pd.DataFrame]:
     """Make the small study of each case, judge the claims of its part and measure their targets.
 
-    Returns the tables ``verdicts``, ``quantities`` (measured targets; NaN where a study has nothing to
-    measure) and ``cost`` (processor time in s, without that of the blade). Each blade is built once, in a
-    folder of `blades`. `folder`, for the only case, keeps runs, maps, peaks and divergence.
+    Tables ``verdicts``, ``quantities`` (NaN where nothing is measured) and ``cost`` (without the blade). Each
+    blade is built once, in a folder of `blades`. `folder`, for the only case, keeps runs and maps.
     """
     verdicts, quantities, cost = [], [], []
     for case in cases:

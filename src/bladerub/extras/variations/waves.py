@@ -136,10 +136,7 @@ def remaining(plan: Plan, emulated: Mapping[str, "Emulator"]) -> Remaining:
 def draw(
     plan: Plan, wave: int, remainder: Remaining, emulated: Mapping[str, "Emulator"], simulated: np.ndarray
 ) -> np.ndarray:
-    """Draw plausible points (n, d), each far from those before it and from the `simulated`.
-
-    There are `DRAWN`, or as many as a wave needs.
-    """
+    """Draw plausible points (n, d), each as far as can be from those before it and from the `simulated`."""
     rng, count, points = np.random.default_rng([plan.seed, wave]), max(DRAWN, *plan.waves), remainder.points
     for _ in range(_ROUNDS):
         if len(points) >= _ENOUGH * count:
@@ -164,11 +161,7 @@ def misfit(measured: pd.DataFrame) -> pd.Series:
 def choose(
     plan: Plan, positions: pd.DataFrame, measured: pd.DataFrame, verdicts: pd.DataFrame
 ) -> pd.DataFrame:
-    """Choose the sets in which most parts hold, and draw neighbours; the misfit decides among equals.
-
-    A row for each candidate (from 0, which has the study's own values) and neighbour (0: the set itself), by
-    `CANDIDATES`, with the position of each factor.
-    """
+    """Choose the sets in which most parts hold, the study's own first, and draw neighbours of each."""
     misfits = misfit(measured)
     yes = (verdicts.holds == YES).groupby(verdicts["set"]).sum()
     ranked = pd.DataFrame({"yes": -yes, "misfit": misfits}).drop(OWN).sort_values(["yes", "misfit"])
