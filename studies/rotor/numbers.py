@@ -30,12 +30,23 @@ def numbers(tables):
     }
     by_blades = {str(blades): {"blades": blades} for blades in sorted(critical["blades"])}
     others = {name: {"blades": 4} | change for name, change in others.items()}
+    lobes = critical[["lobes_lowest", "lobes_highest"]].to_numpy(int)
+    patterns = {
+        "blades": critical["blades"],
+        "strongest harmonic of the wear": critical["wear_harmonic"].map(fixed),
+        "rows that have it, %": (critical["wear_harmonic_rows"] / critical["rows"]).map(percent),
+        "its share of the variance, %": critical["wear_harmonic_share_median"].map(percent),
+        "lobes": [f"{low} to {high}" for low, high in lobes],
+    }
+    drifts = {"median": "median, degrees a revolution", "p05": "5 %", "p95": "95 %"}
+    drifts = {f"pattern_drift_{name}": (heading, _degrees) for name, heading in drifts.items()}
+    turning = rows(drift, f_omega=[0.346, 0.31], length_scatter=5e-5)
     return {
         "by_blades": _combinations(rotor, half, "blades", by_blades),
         "by_combination": _combinations(rotor, half, "four blades", others),
         "energy_residual": fixed(1e6 * rotor["energy_residual"].max()),
-        "patterns": _patterns(critical),
-        "drift": _drift(drift),
+        "patterns": table(patterns),
+        "drift": table(turning, headings("E", "f_omega", "blades") | drifts),
         "drift_draws": fixed(row(drift, **_CRITICAL, blades=4)["rows"]),
         "sweeps": _sweeps(rotor),
         "growth": _growth(rotor),
@@ -68,29 +79,8 @@ def _share(blades, share):
     return "" if blades == 1 or pd.isna(share) else fixed(blades * share, 2)
 
 
-def _patterns(critical):
-    lobes = critical[["lobes_lowest", "lobes_highest"]].to_numpy(int)
-    return table(
-        {
-            "blades": critical["blades"],
-            "strongest harmonic of the wear": critical["wear_harmonic"].map(fixed),
-            "rows that have it, %": (critical["wear_harmonic_rows"] / critical["rows"]).map(percent),
-            "its share of the variance, %": critical["wear_harmonic_share_median"].map(percent),
-            "lobes": [f"{low} to {high}" for low, high in lobes],
-        }
-    )
-
-
-def _drift(drift):
-    def degrees(angle):
-        return fixed(math.degrees(angle), 1)
-
-    return table(
-        rows(drift, f_omega=[0.346, 0.31], length_scatter=5e-5),
-        headings("E", "f_omega", "blades")
-        | {"pattern_drift_median": ("median, degrees a revolution", degrees)}
-        | {"pattern_drift_p05": ("5 %", degrees), "pattern_drift_p95": ("95 %", degrees)},
-    )
+def _degrees(angle):
+    return fixed(math.degrees(angle), 1)
 
 
 def _sweeps(rotor):
@@ -112,10 +102,7 @@ def _sweeps(rotor):
 
 def _growth(rotor):
     diverge = rows(rotor, E=2, K=0.5, f_omega=[0.19, 0.197, 0.206], blades=4, **_SCATTER)
-    shares = (
-        diverge.assign(share=(diverge["divergent_rows"] / diverge["rows"]).map(percent))
-        .pivot(index="f_omega", columns="theta", values="share")
-        .rename(columns="θ = {:g}: rows that diverge, %".format)
-        .rename_axis("f_Ω")
-    )
-    return table(shares.reset_index())
+    shares = diverge.assign(share=(diverge["divergent_rows"] / diverge["rows"]).map(percent))
+    shares = shares.pivot(index="f_omega", columns="theta", values="share").rename_axis("f_Ω").reset_index()
+    headed = {theta: f"θ = {theta:g}: rows that diverge, %" for theta in shares.columns[1:]}
+    return table(shares, {"f_Ω": "f_Ω"} | headed)

@@ -18,15 +18,9 @@ chart = table.read_chart(snakemake.output.table, *snakemake.input.stress)
 ridges, peaks = stiffening.ridges(config, points), stiffening.explanation(config, points)
 speeds = stiffening.table(peaks, read_reduced_blade(snakemake.input.blade))
 front = table.pareto(chart, limits)
-outputs.save(
-    snakemake,
-    pareto=front,
-    choice=table.recommended(chart, limits),
-    ridge=ridges,
-    ridge_summary=stiffening.ridge_summary(ridges),
-    explanation=peaks,
-    stiffening=speeds,
-)
+frames = {"pareto": front, "choice": table.recommended(chart, limits), "ridge": ridges}
+frames |= {"ridge_summary": stiffening.ridge_summary(ridges), "explanation": peaks, "stiffening": speeds}
+outputs.save(snakemake, **frames)
 figures = {quantity: chart_map(chart, quantity, unit) for quantity in snakemake.params.quantities} | {
     "safe": chart_safe(chart, table.broken_limits(chart, limits), limits, unit),
     "pareto": chart_pareto(chart, front),

@@ -87,15 +87,11 @@ def make(
         name: Variable(dims, values[name], units, long_name.format(window=window))
         for name, (dims, units, long_name) in _DATASETS.items()
     } | {"node": interface_node(len(result.wear))}
-    attributes = {
-        **asdict(case),
-        "direction": direction,
-        "rate": rate,
-        **{name: getattr(result, name) for name in ("status", "message", "n_steps", "n_contact_steps")},
-        "energy_residual": result.residual,
-        "energy_work_stiffness": result.work_stiffness,
-        **{f"energy_{name}": value for name, value in vars(result.energy).items()},
-    }
+    attributes = asdict(case) | {"direction": direction, "rate": rate}
+    names = ("status", "message", "n_steps", "n_contact_steps")
+    attributes |= {name: getattr(result, name) for name in names}
+    attributes |= {"energy_residual": result.residual, "energy_work_stiffness": result.work_stiffness}
+    attributes |= {f"energy_{name}": value for name, value in vars(result.energy).items()}
     hdf5.write(path, variables, attributes, provenance(config.plain()))
     return result
 

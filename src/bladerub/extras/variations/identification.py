@@ -71,20 +71,11 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
         target, of_target = TARGETS[name], predictions[predictions.target == name].set_index("set")
         later = of_target.join(values.rename("simulated"), how="inner").dropna()
         predicted = Predicted(later.predicted_value.to_numpy(), later.deviation.to_numpy())
-        rows.append(
-            {
-                "target": name,
-                "id": target.claim,
-                "relation": target.relation,
-                "paper_value": target.value,
-                "error": target.error,
-                "own_value": values.iloc[0],
-                "lowest": values.min(),
-                "highest": values.max(),
-                "plausible": float((implausible[name] <= waves.CUTOFF).mean()),
-                **emulation.compared(later.simulated.to_numpy(), predicted)._asdict(),
-            }
-        )
+        about = {"target": name, "id": target.claim, "relation": target.relation, "paper_value": target.value}
+        about |= {"error": target.error, "own_value": values.iloc[0]}
+        about |= {"lowest": values.min(), "highest": values.max()}
+        about["plausible"] = float((implausible[name] <= waves.CUTOFF).mean())
+        rows.append(about | emulation.compared(later.simulated.to_numpy(), predicted)._asdict())
     return pd.DataFrame(rows)
 
 
