@@ -74,11 +74,10 @@ class _RunSummary(NamedTuple):
 def take(
     config: Config, plan: CoatingPlan, folder: Path, digest: str | None, known: Collection[Path] = ()
 ) -> Inventory:
-    """Compare the runs of one coating in `folder` with its `plan`.
+    """Compare the runs of one coating in `folder` with its `plan`; all are stale without a `digest`.
 
-    Without a blade, whose `digest` is of `current_blade`, every run that is there is stale. A file of the
-    size in the manifest is taken to be what that says; any other is opened, which shows a truncated one.
-    Those `known` to be damaged are corrupt (``FAULTS`` of `bladerub.plugins` reads all to their ends).
+    A file of the size in the manifest is taken to be what that says; any other is opened. Those `known` to be
+    damaged are corrupt (``FAULTS`` of `bladerub.plugins` reads all to their ends).
     """
     manifest = folder / "manifest.tsv"
     paths = (Path(place, name) for place, _, names in os.walk(folder) for name in names)

@@ -42,10 +42,9 @@ def conduct(
     claims: Collection[str] | None = None,
     report: Callable[[object], None] = lambda line: None,
 ) -> SmallStudy:
-    """Run every coating of `config`, and judge the claims of the paper.
+    """Run every coating of `config`, and judge the claims of the paper (all, or ``C2`` with all its parts).
 
-    `model` and `rom_accuracy` are the files of its reduced blade; without a `folder` for its runs and maps
-    they are in memory alone. `claims` are all by default, ``C2`` standing for all its parts.
+    `model` and `rom_accuracy` are files of its blade; without a `folder` runs and maps are in memory alone.
     """
     blade, cases = read_reduced_blade(model), coating_cases(config)
     digest = blade_digest(model)

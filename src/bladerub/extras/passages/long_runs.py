@@ -77,10 +77,12 @@ def make(
     compile_kernel(bool(config.contact.tip_turns), blade.n_interface, element_law(config))
     case, revolutions = coating.case, config.long_runs.revolutions
     reasons = chosen(config, coating)
-    results, seconds = [], np.full((len(reasons), revolutions), np.nan)
+    results, ends, seconds = [], [0.0], np.full((len(reasons), revolutions), np.nan)
     for elapsed, (f_omega, why) in zip(seconds, reasons.items(), strict=True):
         spec = replace(run_spec(config, case, f_omega), revolutions=revolutions)
-        results.append(simulate(blade, spec, _stopwatch(elapsed)))
+        ends[:] = [time.perf_counter()]
+        results.append(simulate(blade, spec, lambda _: ends.append(time.perf_counter())))
+        elapsed[: len(ends) - 1] = np.subtract(ends[1:], ends[0])
         report(f"{f_omega:.4f} ({why}): {results[-1].message}")
     amplitude = np.stack([result.revolution_amplitude for result in results])
     max_wear, status = zip(*((result.wear.max(), result.status) for result in results), strict=True)
@@ -90,16 +92,6 @@ def make(
         name: Variable(dims, getattr(long, name), *about) for name, (dims, *about) in DATASETS.items()
     }
     hdf5.write(path, variables, asdict(case), provenance(config.plain()))
-
-
-def _stopwatch(elapsed: np.ndarray) -> Callable[[int], None]:
-    """Return a callback that fills `elapsed` (r,) with the wall time until the end of each revolution, s."""
-    start = time.perf_counter()
-
-    def note(revolutions: int) -> None:
-        elapsed[revolutions - 1] = time.perf_counter() - start
-
-    return note
 
 
 def read(path: str | Path) -> LongRuns:

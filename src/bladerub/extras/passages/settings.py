@@ -12,6 +12,7 @@ _Coating = Annotated[
     Form("its name in the folder of runs, for instance 2nd_E1.1_K0.5_theta0 or 2nd_rigid_mu0"),
 ]
 _SWEPT = ["2nd_E0.11_K0.5_theta0", "2nd_E1.1_K0.5_theta0", "2nd_E2_K0.5_theta0", "2nd_E2_K0.5_theta0.15"]
+_FITTED = Limit("at most", "reduction.f_omega_max", "beyond which the stiffness of the blade is not fitted")
 
 
 class Sweeps(Section):
@@ -24,15 +25,7 @@ class Sweeps(Section):
     """Those that the study does not have are left out."""
     start: Speed = Field(0.14, gt=0, le=10)
     """Below all peaks of interest, so that the response to the first contact has decayed there."""
-    stop: Omitted[
-        Annotated[
-            Speed,
-            Limit("above", "sweeps.start"),
-            Limit(
-                "at most", "reduction.f_omega_max", "beyond which the stiffness of the blade is not fitted"
-            ),
-        ]
-    ] = Field(None, gt=0, le=10)
+    stop: Omitted[Annotated[Speed, Limit("above", "sweeps.start"), _FITTED]] = Field(None, gt=0, le=10)
     """reduction.f_omega_max if not given, the end of the paper's range."""
     rates: Annotated[list[Annotated[float, Unit("f1/s"), Field(ge=1e-4, le=10)]], UNIQUE] = Field(
         [0.01, 0.05, 0.2], min_length=1, max_length=100

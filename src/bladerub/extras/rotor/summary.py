@@ -22,8 +22,7 @@ from bladerub.study.manifest import read_manifest
 from bladerub.study.store import read_run
 from bladerub.study.wear import dominant_harmonic, lobes
 
-WHAT = ["casing", "E", "K", "theta", "f_omega", "blades"]
-WHAT += ["length_scatter", "frequency_scatter", "coupling"]
+WHAT = ["casing", "E", "K", "theta", "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling"]
 """Columns that name a combination, as `bladerub.extras.rotor.plan.described` does."""
 
 MEASURED = ["row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share"]

@@ -52,8 +52,7 @@ def cases(
 ) -> list[Case]:
     """Make the config of each small study of a job, from the `study` that is varied.
 
-    `positions` (d,) are by set, None for the study's own values; a set that has none is left out. Without
-    them they are those of the plan or, where it has none, the study's own values.
+    `positions` (d,) are by set, None for the study's own values; by default they are those of the plan.
     """
     if positions is None:
         positions = dict.fromkeys(job.sets) | known(plan)

@@ -32,13 +32,9 @@ Variation = Annotated[
     Form("a group of keys, as of a config"),
     Field(description="What is laid over the study; it is checked as a part of the whole."),
 ]
-Claims = Annotated[
-    list[Annotated[str, Field(pattern=r"^C([1-9]|1[0-2])$"), Form("a claim of the paper, C1 to C12")]],
-    UNIQUE,
-    Field(
-        min_length=1, max_length=12, description="Those that the part is to judge, each for all its parts."
-    ),
-]
+Value = Annotated[Number, Field(ge=-1e12, le=1e12)]
+Range = Annotated[list[Value], ASCENDING, Field(min_length=2, max_length=2)]
+Claim = Annotated[str, Field(pattern=r"^C([1-9]|1[0-2])$"), Form("a claim of the paper, C1 to C12")]
 SetName = Annotated[
     str,
     Field(pattern=r"^[_.]*[A-Za-z0-9][A-Za-z0-9_.]*$", max_length=80),
@@ -66,12 +62,7 @@ class Factor(Section):
     """On which the samples are spread evenly; linear unless it says otherwise."""
     multiple_of: Omitted[Number] = Field(None, gt=0, le=1e12)
     """Values are rounded to a multiple of it."""
-    sets: dict[
-        str,
-        Annotated[
-            list[Annotated[Number, Field(ge=-1e12, le=1e12)]], ASCENDING, Field(min_length=2, max_length=2)
-        ],
-    ] = Field(min_length=1, max_length=100)
+    sets: dict[str, Range] = Field(min_length=1, max_length=100)
     """Path of each number in the config, such as casings.2nd.weights[0], with its lowest and highest
     value."""
 
@@ -148,7 +139,8 @@ class DrawnPlan(Section):
 class PlanPart(Section):
     """One small study for some of the claims."""
 
-    claims: Claims
+    claims: Annotated[list[Claim], UNIQUE] = Field(min_length=1, max_length=12)
+    """Those that the part is to judge, each for all its parts."""
     study: Variation
 
 
@@ -197,7 +189,7 @@ class IdentificationPlan(DrawnPlan):
 
     parts: dict[Name, PlanPart] = Field(min_length=1, max_length=100)
     """Small studies that each set makes, by name."""
-    sets: dict[Name, dict[Name, Annotated[Number, Field(ge=-1e12, le=1e12)]]] = Field(max_length=1000)
+    sets: dict[Name, dict[Name, Value]] = Field(max_length=1000)
     """Sets of the first wave beside the study's own, by name: values of some factors, of the first number
     that each sets, within its range; the study's own of the others."""
     waves: list[Annotated[int, Field(ge=1, le=4096)]] = Field(min_length=1, max_length=20)
