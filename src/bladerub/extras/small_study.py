@@ -54,10 +54,8 @@ def conduct(
     maps, n_runs = [results[case][0] for case in cases], sum(n for _, n in results.values())
     tables = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, tables | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
-    selection = [part for part in findings.CLAIMS if claims is None or claim_of(part.id) in claims]
-    return SmallStudy(
-        **tables, findings=findings.judge(evidence, selection), n_runs=n_runs, evidence=evidence
-    )
+    parts = [part for part in findings.CLAIMS if claims is None or claim_of(part.id) in claims]
+    return SmallStudy(**tables, findings=findings.judge(evidence, parts), n_runs=n_runs, evidence=evidence)
 
 
 def map_coating(

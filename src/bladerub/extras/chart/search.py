@@ -113,10 +113,8 @@ def next_speeds(computed: np.ndarray, curves: Iterable[np.ndarray], share: float
         values = np.nan_to_num(curve[indices], nan=-np.inf)
         if not np.isfinite(values).any():
             continue
-        previous, following = np.append(-np.inf, values[:-1]), np.append(values[1:], -np.inf)
-        maxima = np.flatnonzero(
-            (values >= previous) & (values >= following) & (values >= share * values.max())
-        )
+        left, right = np.append(-np.inf, values[:-1]), np.append(values[1:], -np.inf)
+        maxima = np.flatnonzero((values >= left) & (values >= right) & (values >= share * values.max()))
         for low, high in [*zip(maxima - 1, maxima, strict=True), *zip(maxima, maxima + 1, strict=True)]:
             if low >= 0 and high < indices.size and indices[high] - indices[low] > 1:
                 midpoints.add(int(indices[low] + indices[high]) // 2)

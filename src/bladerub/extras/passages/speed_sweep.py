@@ -90,13 +90,11 @@ def simulate_sweep(blade: ReducedBlade, spec: SweepSpec) -> SweepResult:
     history = History(plan[-1].last // n_elements, stage.rule, stage.simulation)
     integrate(segments(), history)
     outcome = history.outcome(blade, spec.run, stage.rule, stage.simulation)
-    f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
+    f_omega, time = _by_revolution(plan, n_elements, blade.f1_hz)
     return SweepResult(**outcome, f_omega=f_omega, time=time, work_stiffness=work)
 
 
-def _speed_by_revolution(
-    plan: list[SpeedStep], n_elements: int, f1_hz: float
-) -> tuple[np.ndarray, np.ndarray]:
+def _by_revolution(plan: list[SpeedStep], n_elements: int, f1_hz: float) -> tuple[np.ndarray, np.ndarray]:
     """Mean speed and middle of each revolution."""
     cuts = np.array([0, *(step.last for step in plan)])
     duration = np.diff(cuts) / (n_elements * f1_hz * np.array([step.f_omega for step in plan]))

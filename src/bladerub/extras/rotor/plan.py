@@ -175,15 +175,10 @@ def described(combination: Combination) -> dict[str, Any]:
     return {name: case[name] for name in ("casing", "E", "K", "theta")} | values
 
 
-def inventories(
-    config: Config, results: Path, digest: str | None, known: Collection[Path]
-) -> list[Inventory]:
-    """Count the runs of the rows of blades, if any were begun, as `take` does."""
-    path = study_folder() / PLAN
-    if not ((results / RUNS).exists() and path.exists()):
+def inventories(config: Config, folder: Path, digest: str | None, known: Collection[Path]) -> list[Inventory]:
+    """Count the runs of the rows of blades, if any were begun in the `folder` of results, as `take` does."""
+    path, runs = study_folder() / PLAN, folder / RUNS
+    if not (runs.exists() and path.exists()):
         return []
     plan = read_plan(path, config)
-    return [
-        take(config, plan.runs(config, name), results / RUNS / name, digest, known)
-        for name in plan.combinations
-    ]
+    return [take(config, plan.runs(config, name), runs / name, digest, known) for name in plan.combinations]

@@ -27,24 +27,20 @@ def robustness(table: pd.DataFrame, indices: pd.DataFrame) -> Figure:
     """Draw a row for each claim: the shares of the design on the left, the factors on the right."""
     figure = style.new_figure(style.PAGE, 1.6 + 0.155 * len(table))
     shares, factors = figure.subplots(1, 2, sharey=True, width_ratios=(1, 1.5))
-    _draw_shares(shares, table)
+    rows, start = np.arange(len(table)), np.zeros(len(table))
+    for word, colour in SHARES.items():
+        share = 100 * table[f"{word}_share"].to_numpy()
+        shares.barh(rows, share, left=start, height=0.72, label=word, color=colour)
+        start += share
+    shares.set_yticks(rows, table.id)
+    shares.set(xlim=(0, 100), ylim=(len(table) - 0.4, -0.6), xlabel="share of the design (%)")
+    shares.tick_params(axis="y", length=0)
+    shares.spines[:].set_visible(False)
     image = _draw_factors(factors, table, indices)
     bar = figure.colorbar(image, ax=factors, shrink=0.35, anchor=(0, 1), label="total index of the verdict")
     bar.outline.set_visible(False)
     figure.legend(loc="outside lower left", ncols=len(SHARES))
     return figure
-
-
-def _draw_shares(axes, table: pd.DataFrame) -> None:
-    rows, start = np.arange(len(table)), np.zeros(len(table))
-    for word, colour in SHARES.items():
-        share = 100 * table[f"{word}_share"].to_numpy()
-        axes.barh(rows, share, left=start, height=0.72, label=word, color=colour)
-        start += share
-    axes.set_yticks(rows, table.id)
-    axes.set(xlim=(0, 100), ylim=(len(table) - 0.4, -0.6), xlabel="share of the design (%)")
-    axes.tick_params(axis="y", length=0)
-    axes.spines[:].set_visible(False)
 
 
 def _draw_factors(axes, table: pd.DataFrame, indices: pd.DataFrame):
@@ -72,16 +68,14 @@ def _draw_factors(axes, table: pd.DataFrame, indices: pd.DataFrame):
 
 
 @style.styled
-def identification(
-    plan: Plan, measured: pd.DataFrame, points: pd.DataFrame, candidates: pd.DataFrame
-) -> Figure:
+def identification(plan: Plan, measured: pd.DataFrame, points: pd.DataFrame, best: pd.DataFrame) -> Figure:
     """Draw the targets of all sets, the study's own first, and below them what is left of each range."""
     rows, heights = -(-len(plan.factors) // _COLUMNS), 0.14 * measured.shape[1] + 0.8
     figure = style.new_figure(style.PAGE, heights + 1.0 * rows)
     above, below = figure.subfigures(2, 1, height_ratios=(heights, 1.0 * rows))
     _draw_targets(above.subplots(), plan, measured)
     panels = below.subplots(rows, _COLUMNS, squeeze=False).ravel()
-    themselves = candidates.xs(0, level="neighbour")
+    themselves = best.xs(0, level="neighbour")
     for axes, (name, factor) in zip(panels, plan.factors.items(), strict=False):
         _draw_range(axes, factor, points[name], themselves[name])
     for axes in panels[len(plan.factors) :]:

@@ -158,9 +158,7 @@ def misfit(measured: pd.DataFrame) -> pd.Series:
     return (bounded**2).mean(axis=1)
 
 
-def choose(
-    plan: Plan, positions: pd.DataFrame, measured: pd.DataFrame, verdicts: pd.DataFrame
-) -> pd.DataFrame:
+def choose(plan: Plan, sets: pd.DataFrame, measured: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
     """Choose the sets in which most parts hold, the study's own first, and draw neighbours of each."""
     misfits = misfit(measured)
     yes = (verdicts.holds == YES).groupby(verdicts["set"]).sum()
@@ -170,7 +168,7 @@ def choose(
     for candidate, neighbour in plan.candidates.pairs:
         number = best[candidate]
         signs = rng.choice([-1.0, 1.0], len(plan.factors)) if neighbour else np.zeros(len(plan.factors))
-        position = np.clip(positions.loc[number] + plan.candidates.shift * signs, 0.0, 1.0)
+        position = np.clip(sets.loc[number] + plan.candidates.shift * signs, 0.0, 1.0)
         rows.append((candidate, neighbour, number, misfits[number], *position))
     return pd.DataFrame(rows, columns=[*CANDIDATES, *plan.factors]).set_index(CANDIDATES)
 
