@@ -185,4 +185,4 @@ def test_settings_of_extras_are_named_by_their_plugins():
     settings = {path.parent.name for path in (PACKAGE / "extras").glob("*/settings.py")}
     plugged = (PACKAGE / "extras").glob("*/plugin.py")
     named = {path.parent.name for path in plugged if ".settings:" in path.read_text()}
-    assert settings == named | {"rotor"}  # of a file of its own
+    assert settings == named
