@@ -19,12 +19,7 @@ from bladerub import plugins
 from bladerub.io.errors import BadInput
 from bladerub.settings.blade import Blade, BladeSpec
 
-FUNCTIONS = (
-    "problems",
-    "recipe",
-    "files",
-    "build",
-)  # what every source has
+FUNCTIONS = ("problems", "recipe", "files", "build")  # of every source; meshed or frequency_at_rest beside
 
 
 def place(blade: Blade) -> str | None:

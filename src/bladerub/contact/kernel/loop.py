@@ -25,7 +25,7 @@ from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, where
 
-NEGLIGIBLE = 1e-100  # m kg^1/2, modal coordinates below are zero: they slow the loop, no normal numbers
+NEGLIGIBLE = 1e-100  # m kg^1/2: smaller modal coordinates become 0, subnormal numbers would slow the loop
 CLEANING_INTERVAL = 32  # elements between two searches for negligible modal coordinates
 
 

@@ -29,7 +29,7 @@ FURTHER, APPROACH = 2 * LANES, 3 * LANES
 
 
 class Modal(NamedTuple):
-    """A `Recurrence` as the loop reads it, modes in whole vectors; 16 is 24 with a further motion."""
+    """A `Recurrence` as the loop reads it: modes in whole vectors, 24 rows for 16 with a further motion."""
 
     n: int  # Number of modes, a multiple of 8
     now: np.ndarray  # (n,): Coefficients of the recurrence
