@@ -23,10 +23,22 @@ from bladerub.contact.tip import coverage, relief
 def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarray, np.ndarray]:
     """Simulate a blade on an abradable coating by central differences with prediction and correction.
 
-    The run is from rest, here by the paper's scheme and a step that suits it. Coulomb friction, the rigid
-    casing, other laws of the coating and a tip that turns are left to the time loop. Returns the displacement
-    (n_steps, 2 j) of the j interface nodes after each step, radial, then tangential, m, and the permanent
-    shortening (j, N) of the elements, m.
+    Parameters
+    ----------
+    blade : ReducedBlade
+        The blade, with j interface nodes.
+    spec : RunSpec
+        The run, from rest, here by the paper's scheme and a step that suits it. Coulomb friction, the rigid
+        casing, other laws of the coating and a tip that turns are left to the time loop.
+    n_steps : int
+        Time steps.
+
+    Returns
+    -------
+    history : (n_steps, 2 j) ndarray
+        Radial, then tangential displacement of the interface nodes after each step, m.
+    wear : (j, N) ndarray
+        Permanent shortening of the elements, m.
     """
     h = time_step(blade, replace(spec, scheme="central_differences"))
     N, θ, ξ = spec.coating.n_elements, spec.coating.theta, spec.damping_ratio
