@@ -96,7 +96,7 @@ def test_the_rules_do_not_import_the_compiler():
 
 @pytest.mark.extras
 def test_a_study_without_its_extra_is_left_out(tmp_path):
-    for name, extra in (("one", "cost.jobs"), ("two", "nowhere.table"), ("three", "chart.stress")):
+    for name, extra in (("one", "cost.jobs"), ("two", "nowhere.table"), ("three", "chart.table")):
         (tmp_path / "studies" / name / "scripts").mkdir(parents=True)
         (tmp_path / "studies" / name / "rules.smk").write_text(f'files_behind("extras.{extra}")\n')
     script = tmp_path / "studies" / "three" / "scripts" / "three.py"
