@@ -4,10 +4,9 @@ from dataclasses import asdict
 from functools import cache
 
 from bladerub.blade.model import n_interface
-from bladerub.contact.laws import law_digest
+from bladerub.contact.laws import law_digest, solver_digest
 from bladerub.study.grid import case_from_name, element_law
 from bladerub.study.plan import coating_plan, growth_key
-from bladerub.contact.laws import solver_digest
 
 
 @cache

@@ -16,7 +16,7 @@ from bladerub.settings.blade import BladeSpec
 
 
 def kept_at(config: BladeSpec) -> Path:
-    """Return where the blade of `config` is or would be kept, by all that determines it; as `made_from`."""
+    """Return where a blade is, or would be, kept by all that determines it; raises as `made_from`."""
     return cache_folder() / "blades" / _name(config, made_from(config)) / "reduced_model.h5"
 
 

@@ -134,7 +134,10 @@ class PreconditionedCG:
 def _orthonormal(
     block: np.ndarray, basis: np.ndarray, momenta: np.ndarray, mass: sparse.csc_array
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return what `block` adds to `basis`, orthonormal in `mass`, and the mass times it, as `momenta`."""
+    """Return what `block` (n, k) adds to `basis` (n, m), orthonormal in `mass`, and the mass times it.
+
+    `momenta` are the mass times the basis.
+    """
     for _ in range(2):  # the second time against the rounding of the first
         block = block - basis @ (momenta.T @ block)
         block = block / np.linalg.norm(block, axis=0)

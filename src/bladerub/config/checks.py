@@ -42,7 +42,10 @@ def reads(*sections: str) -> Callable[[Check], Check]:
 
 
 def check(config: Config, broken: Collection[str]) -> list[str]:
-    """List the problems of `config`, by ``AGREEMENTS`` too, but of sections that have others already."""
+    """List the problems of `config`, a line each, also by what plugs in (``AGREEMENTS``).
+
+    A check is left out if it reads a section in `broken`, or one with a problem already found.
+    """
     problems: list[str] = []
     plugged = plugins.loaded("AGREEMENTS").items()
     added = [function for section, function in plugged if config.plugged(section) is not None]

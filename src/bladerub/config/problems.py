@@ -44,7 +44,10 @@ def problems(
 
 
 def checked_quantity(value: Any, kind: Any, hint: bool = True) -> float:
-    """Return a value of this type as a plain number; ValueError says what is right, and a `hint`."""
+    """Return a value of this type as a plain number.
+
+    ValueError says what would be right and, with a `hint`, what may have been meant.
+    """
     try:
         return _adapter(kind).validate_python(value, strict=True)
     except ValidationError:

@@ -30,7 +30,7 @@ class Unknown(ValueError):
 
 
 def references(config: Config) -> units.Reference:
-    """Return the sizes of a study for `Key.convert`; that of f1 raises if the blade cannot be computed."""
+    """Return the sizes of a study for `Key.convert`; that of f1 raises ValueError or OSError for no blade."""
 
     def size(name: str) -> float:
         if name == "f1":
@@ -59,7 +59,7 @@ def number(name: str, value: Any, reference: units.Reference) -> Any:
 
 
 def checked_number(name: str, value: Any, kind: Any, reference: units.Reference) -> float:
-    """Return `value` as `number`, within the bounds of `kind`; errors have limits in the unit typed."""
+    """Return `value` as `number`, within the bounds of `kind`; ValueError states them in the unit typed."""
     plain = None
     try:
         plain = number(name, value, reference)

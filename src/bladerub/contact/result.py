@@ -64,7 +64,7 @@ class Outcome:
     wear: np.ndarray  # (j, N), permanent shortening of each element under each node, m
     radial_displacement: np.ndarray  # (revolutions N,), of node 1, mean over the passage of each element, m
     revolution_peak: np.ndarray  # (revolutions,), largest absolute one, m; in free flight that of a parabola
-    revolution_amplitude: np.ndarray  # (revolutions,), half its range in each whole one (no mean), m
+    revolution_amplitude: np.ndarray  # (revolutions,), half its range in each whole one (without its mean), m
     n_steps: int  # time steps, and those of them with contact
     n_contact_steps: int
     energy: Energy

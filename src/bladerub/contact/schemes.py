@@ -29,7 +29,7 @@ import numpy as np
 
 from bladerub.contact.modes import Modes
 
-FASTEST_PHASE = 2.0  # phase ω h up to which a mode is resolved: three steps a period draw no vibration
+FASTEST_PHASE = 2.0  # largest ω h the exponential scheme resolves: three steps a period draw no vibration
 STEADY = 0.25  # largest κ that the exponential scheme admits in lasting contact; it is stable below 1
 
 ILL_CONDITIONED = 1e9
@@ -47,7 +47,7 @@ class Recurrence(NamedTuple):
     tip: np.ndarray  # (2 j, n): Displacement of the tip per unit of each resolved mode, kg^-1/2
     omega: np.ndarray  # (n,): Natural angular frequencies of the resolved modes, rad/s
     share: np.ndarray  # (all modes,): Resolved part of each; the rest responds by its static displacement
-    compliance: np.ndarray  # (2 j, 2 j): Of the tip in the step of a force, as contact sees it (3), m/N
+    compliance: np.ndarray  # (2 j, 2 j): Of the tip in the step of a force (contract, 3), m/N
     static_compliance: np.ndarray  # (2 j, 2 j): Of the modes that are not resolved alone, m/N
     time_step: float  # h, s
     n_nodes: int  # j, interface nodes

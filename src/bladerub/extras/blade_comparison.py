@@ -57,12 +57,15 @@ def radial_compliance(blade: ReducedBlade) -> float:
 
 
 def runs(config: Config, pairs: Iterable[tuple], lengths: tuple[float, float]) -> pd.DataFrame:
-    """Compare maps of this study and of the reference at common speeds: rows of `RUN_COLUMNS`."""
+    """Compare maps of this study and of the reference at common speeds: rows of `RUN_COLUMNS`.
+
+    Each of the `pairs` has both maps of a coating; `lengths` (m) are those of the two blades.
+    """
     tables = [pd.DataFrame(columns=RUN_COLUMNS)]
     for one, other in pairs:
         reference = _of(config, other, lengths[1]).add_prefix("reference_")
-        one_length = _of(config, one, lengths[0])
-        tables.append(one_length.merge(reference, left_on="speed", right_on="reference_speed"))
+        table = _of(config, one, lengths[0])
+        tables.append(table.merge(reference, left_on="speed", right_on="reference_speed"))
     return pd.concat(tables[1:] or tables, ignore_index=True)[RUN_COLUMNS]
 
 

@@ -26,7 +26,7 @@ def percent(error: float) -> str:
 
 
 def doubts(table: pd.DataFrame, nominal_speed: float | str | None = None) -> list[str]:
-    """List the doubts of an accuracy table (`blade.frequencies.doubts`); `InputError` for no speed.
+    """List the doubts of an accuracy table (`blade.frequencies.doubts`); `InputError` for a wrong speed.
 
     At the speeds of its fit eq. (2) is exact: a table of these alone tells nothing of it.
     """

@@ -47,7 +47,7 @@ class Cells(NamedTuple):
             raise ValueError(f"has no column {', '.join(missing)}; {rule} ({self.separator} here){cure}")
 
     def column(self, name: str) -> list[str]:
-        """Return the cells of a column, in any case; a ValueError names a line with too many or too few."""
+        """Return the cells of a column (in any case); ValueError names a line with too many or too few."""
         lower = [column.lower() for column in self.names]
         if lower.count(name.lower()) > 1:
             raise ValueError(f"line {self.header}: has the column {name.lower()} twice")
@@ -59,7 +59,7 @@ class Cells(NamedTuple):
         return [row[index] for row in self.rows.values()]
 
     def numbers(self, name: str, empty: float = np.nan) -> np.ndarray:
-        """Return the numbers (n_rows,) of a column, `empty` where none is; ValueError as `column`."""
+        """Return the numbers (n_rows,) of a column, `empty` for empty cells; ValueError names a bad line."""
         numbers, cells = [], self.column(name)
         for line, cell in zip(self.rows, cells, strict=True):
             text = self._with_point(cell)

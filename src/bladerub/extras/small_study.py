@@ -42,9 +42,10 @@ def conduct(
     claims: Collection[str] | None = None,
     report: Callable[[object], None] = lambda line: None,
 ) -> SmallStudy:
-    """Run every coating of `config`, and judge the claims of the paper (all, or ``C2`` with all its parts).
+    """Run every coating of `config`, and judge the `claims` of the paper (default: all; ``C2``: its parts).
 
-    `model` and `rom_accuracy` are files of its blade; without a `folder` runs and maps are in memory alone.
+    `model` and `rom_accuracy` are files of its blade. Current runs in `folder` are kept; without it runs
+    and maps are in memory alone.
     """
     blade, cases = read_reduced_blade(model), coating_cases(config)
     digest = blade_digest(model)

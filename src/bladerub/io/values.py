@@ -5,8 +5,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
-import numpy as np
-
 
 class Comparable:
     """Base of a ``dataclass(eq=False)`` that equals another of its class if all fields are equal.
@@ -22,6 +20,8 @@ class Comparable:
 
 def equal(a: Any, b: Any) -> bool:
     """Compare numbers, text, arrays, mappings, sequences and dataclasses of these, NaN being equal to NaN."""
+    import numpy as np  # commands write `plain` values, and start without it
+
     if isinstance(a, np.ndarray | np.generic | float) or isinstance(b, np.ndarray):
         a, b = np.asarray(a), np.asarray(b)
         return np.array_equal(a, b, equal_nan=a.dtype.kind in "fc" and b.dtype.kind in "fc")

@@ -7,7 +7,7 @@ from typing import Any
 
 
 def once(maxsize: int) -> Callable[[Callable], Callable]:
-    """Keep the last `maxsize` values; of threads that ask for one at a time, one computes and others wait."""
+    """Keep the last `maxsize` values of a function; one thread computes, the others wait for its value."""
 
     def decorate(function: Callable) -> Callable:
         cached, lock = lru_cache(maxsize)(function), threading.Lock()

@@ -209,7 +209,8 @@ def run_spec(config: Config, case: CoatingCase, f_omega: float) -> RunSpec:
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
     The one place where values that the config gives in blade lengths, degrees or for the stand-in of the
-    paper's blade (``contact.scale``) become SI of this blade. `KeyError` if it has no such casing.
+    paper's blade (``contact.scale``) become SI of this blade. Raises `KeyError` for a casing
+    that it has not, `ValueError` as `casing_spec`.
     """
     contact, solver, own = config.contact, config.solver, case.own
     casing, length = config.casings[case.casing], config.blade.length

@@ -92,7 +92,7 @@ def lists_longer(run_path: str | Path, run_key: str) -> bool | None:
 
 
 def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = ManifestRow) -> None:
-    """Write rows of this `kind`, tab-separated, whole or not at all; their checksum is the last heading."""
+    """Write rows of this `kind`, tab-separated, whole or not at all; the file's checksum ends the header."""
     table = io.StringIO()
     writer = csv.writer(table, delimiter="\t", lineterminator="\n")
     writer.writerow([*kind._fields, checksum.BLANK])
@@ -102,7 +102,7 @@ def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = Mani
 
 
 def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[AnyRow]:
-    """Read rows of this `kind`, which may lack the last columns; raises `OSError`, naming the file."""
+    """Read rows of this `kind`; older files lack the last columns. Raises `OSError`, naming the file."""
     last = 1 if checksum.is_sealed(path) else 0
     lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
     reader = csv.reader(lines, delimiter="\t")

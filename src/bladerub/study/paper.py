@@ -24,7 +24,7 @@ HISTORIES = {
 """Coatings and speeds whose histories the paper shows (Figs. 17 and 18), and the f6 of this blade."""
 
 NEAR = 0.025
-"""How far a speed may lie from the paper's, normalised: a line's width in its maps, and the other C1."""
+"""How far a speed may lie from the paper's, normalised: a line's width in its maps and another C1."""
 
 FIVE_LOBES = ((0.0, 0.08), (0.24, 0.34))  # speeds between which five lobes are worn (Fig. 6)
 TEN_LOBES, FOUR_LOBES = 0.1, 0.38  # speeds of ten and of four worn lobes (Figs. 6 and 7)

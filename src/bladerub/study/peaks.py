@@ -26,7 +26,7 @@ COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
 def peak_orders(config: Config, casing: str) -> list[int]:
     """Return the orders of the coatings of one casing: its ``peak_orders``, or ``analysis.peaks.orders``.
 
-    They are its `excited_orders` if those are the paper's, and not all are excited at the study's speeds.
+    If those are the paper's, and not all of them are excited at the study's speeds: its `excited_orders`.
     """
     entry, orders = config.casings[casing], config.analysis.peaks.orders
     if entry.peak_orders:

@@ -25,7 +25,7 @@ def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, floa
 def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
     """Find the largest displacement (m) over the last `revolutions`, or over as many before an early end.
 
-    `revolution_peak` (r,) is the largest in each revolution, m; NaN after an unbounded end, as that of none.
+    `revolution_peak` (r,) is the largest in each revolution, m, NaN after an unbounded end. NaN for none.
     """
     record = revolution_peak[np.isfinite(revolution_peak)]
     return float(np.fmax.reduce(record[-revolutions:], initial=np.nan))

@@ -66,7 +66,7 @@ def rules_of_studies(repository: Path) -> tuple[list[Path], list[str]]:
 
 
 def damage(path: str | Path, check: Callable[[str | Path], Any] = checksum.is_sealed) -> str | None:
-    """Say in a line, by `check`, how a file is damaged; None if it is whole or absent."""
+    """Say in a line, by `check`, how a file is damaged; None if whole or absent, `OSError` if unreadable."""
     try:
         check(path)
     except FileNotFoundError:

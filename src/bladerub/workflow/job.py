@@ -17,14 +17,15 @@ if TYPE_CHECKING:  # a job opens its log first
     from bladerub.study.job import RunDone
     from bladerub.study.manifest import ManifestRow
 
-_ALLOCATIONS = 100_000  # objects made, less those deleted, before garbage is looked for; of Python 700
+_ALLOCATIONS = 100_000  # objects made, less those deleted, before garbage is looked for; by default 700
 
 
 def log_to(path: str | Path) -> None:
     """Send standard error to the log at `path`, each line as it comes.
 
     The error of a file or input is then reported in one line, in the log and on the former standard error, so
-    that it is seen even if the log is on a full disk. Of others it has the traceback, both the last line.
+    that it is seen even if the log is on a full disk. Of any other the traceback goes to the log, its
+    last line to both.
     """
     collect_seldom()
     sys.stderr = open(path, "w", buffering=1, encoding="utf-8")  # noqa: SIM115 (a traceback must reach it)

@@ -56,7 +56,11 @@ def test_the_log_of_a_job_is_open_before_its_imports():
         _, imported, opened = map(ast.unparse, ast.parse(script.read_text(encoding="utf-8")).body[:3])
         assert imported.removesuffix(", outputs") == "from bladerub.workflow import job", script
         assert opened == "job.log_to(snakemake.log[0])", script
-    program = "import sys; from bladerub.workflow import job, outputs; print('numpy' in sys.modules)"
+
+
+def test_jobs_and_the_command_line_start_without_numpy():
+    program = "from bladerub import cli; from bladerub.workflow import job, outputs"
+    program = f"import sys; {program}; print('numpy' in sys.modules)"
     assert subprocess.check_output([sys.executable, "-c", program], text=True) == "False\n"
 
 
@@ -96,7 +100,7 @@ def test_the_rules_do_not_import_the_compiler():
 
 @pytest.mark.extras
 def test_a_study_without_its_extra_is_left_out(tmp_path):
-    for name, extra in (("one", "cost.jobs"), ("two", "nowhere.table"), ("three", "chart.stress")):
+    for name, extra in (("one", "cost.jobs"), ("two", "nowhere.table"), ("three", "chart.table")):
         (tmp_path / "studies" / name / "scripts").mkdir(parents=True)
         (tmp_path / "studies" / name / "rules.smk").write_text(f'files_behind("extras.{extra}")\n')
     script = tmp_path / "studies" / "three" / "scripts" / "three.py"

@@ -39,7 +39,7 @@ class Modal(NamedTuple):
     gain: np.ndarray  # (n,): Modal coordinates per unit of modal force
     compliance: np.ndarray  # (16, 16): Displacement of the tip in the step of each force itself, m/N
     corrects: bool  # Whether forces act in the step they are evaluated in
-    mobility: np.ndarray  # (16, 16): That by the resolved modes, as `contact.friction` counts it, m/N
+    mobility: np.ndarray  # (16, 16): In a step, by resolved modes alone, as `contact.friction` counts, m/N
     stopping: np.ndarray  # (8,): Most that friction of 1 N on all nodes takes from the sliding of each, m
 
 

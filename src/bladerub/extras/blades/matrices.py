@@ -195,7 +195,8 @@ def check_definite(matrix: csc_array) -> None:
     if low.size:
         fault = f"its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}"
         raise ValueError(f"is not positive definite: {fault}; must be above 0")
-    # Ritz values of Lanczos's method lie between the eigenvalues: a negative one is proof (see `check_held`)
+    # Ritz values of Lanczos's method lie between the eigenvalues: a negative one is proof. Eigenvalues near
+    # zero may stay unnoticed (see `check_held`)
     n, scale = diagonal.size, 1 / np.sqrt(diagonal)
     vector = np.random.default_rng(0).standard_normal(n)
     vector /= np.linalg.norm(vector)

@@ -72,7 +72,7 @@ def mesh_report(
 def matrix_report(
     source: Source, imported: ImportedMatrices, built: BuiltBlade, nominal: float | None = None
 ) -> dict[str, Any]:
-    """Figures and warnings, as `mesh_report`, of matrices; no ``error_eq2`` of speeds of the fit alone."""
+    """Figures and warnings, as `mesh_report`, of matrices; no ``error_eq2`` if all are at fit speeds."""
     layout = imported.blade.layout
     points = layout.mesh.mesh.points
     speeds = list(imported.blade.stiffness)

@@ -32,7 +32,7 @@ def casing_spec(name: str, entry: MeasuredCasing, length_scale: float) -> Casing
         raise ValueError(f"table.file = {table.file}: {error}") from error
     amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
     inward = (np.max(gap) - gap) / amplitude
-    # the measured gap is what it is, or shifted
+    # the measured gap is taken as it is, or shifted to the interference that stands beside the table
     interference = -lowest if interference is None else float(interference * length_scale)
     measured = tuple(zip(angle.tolist(), inward.tolist(), strict=True))
     return Casing(name, (), (), amplitude, interference, math.radians(entry.start_angle), measured=measured)

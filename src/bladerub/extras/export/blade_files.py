@@ -87,7 +87,10 @@ def write_matrices(path: str | Path, blade: ReducedBlade) -> None:
 
 
 def write_fe_matrices(folder: str | Path, blade: DiscreteBlade, f_max: float, suffix: str) -> list[Path]:
-    """Write mass, stiffness, nodes as `bladerub import` reads them, SI; `suffix` is ``.mtx`` or ``.npz``."""
+    """Write mass, stiffness, nodes as `bladerub import` reads them, SI; `suffix` is ``.mtx`` or ``.npz``.
+
+    `f_max` is the highest normalised speed of the fit.
+    """
     names = dict(zip(fit_speeds(f_max), FIT, strict=True))
     matrices = {MASS: blade.mass} | {
         names.get(f_omega, f"{AT_SPEED}{f_omega:.10g}"): matrix for f_omega, matrix in blade.stiffness.items()

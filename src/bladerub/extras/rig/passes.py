@@ -75,7 +75,10 @@ def table(rigs: Iterable[Rig]) -> pd.DataFrame:
 
 
 def compared(rigs: Iterable[Rig], passes: pd.DataFrame) -> pd.DataFrame:
-    """Set the last pass of each rig beside what was measured, or NaN: a row for each of `MEASURABLE`."""
+    """Set the last pass of each rig beside what was measured, or NaN: a row for each of `MEASURABLE`.
+
+    ``assumed`` lists the parameters that the ``source`` does not give.
+    """
     rows = []
     for rig in rigs:
         last = passes[passes.rig == rig.name].iloc[-1]
@@ -89,7 +92,8 @@ def _one_passage(law: ModuleType, element: Any, depth: np.ndarray, wear: float) 
     """Press an element along `depth` (n,) below its original surface (m); it was worn by `wear` before.
 
     The edge of the tip comes down on it in the first step, and leaves it in the last. Returns, without heat,
-    its forces (n,), N, wear after it, m, energy taken up, J, and the share of the work that this leaves.
+    its forces (n,), N, wear after it, m, energy taken up, J, and what this leaves of the
+    work of the tip on it, over the work exchanged.
     """
     forces, energy, work, exchanged, before = np.zeros(depth.size), 0.0, 0.0, 0.0, 0.0
     for i, level in enumerate(depth):

@@ -159,7 +159,7 @@ def _largest(values):
 
 
 def stressed_nodes(stress: ModalStress, share: float) -> np.ndarray:
-    """Numbers of the nodes where rotation or a unit of a coordinate causes this `share` of its most."""
+    """Numbers of nodes where rotation or a coordinate causes over `share` of its largest von Mises stress."""
     parts = von_mises(*np.moveaxis(np.concatenate([stress.static[None], stress.slope]), 1, 0))
     return np.flatnonzero((parts > share * parts.max(axis=1, keepdims=True)).any(axis=0))
 

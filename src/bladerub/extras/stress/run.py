@@ -78,7 +78,8 @@ def modal_stress(path: str | Path, f_omega: float, patterns: np.ndarray | None =
     """Return the stress by the reduced coordinates, or by others of reduced coordinates `patterns` (k, n)."""
     mesh, _ = hdf5.read(path, {"recovery", "points", "cells", "interface_nodes"})
     displaced = mesh["recovery"] if patterns is None else np.tensordot(patterns, mesh["recovery"], axes=1)
-    # that a contact force acts in a point is of the model, and the stress there of the mesh
+    # without the elements at the interface: that a contact force acts in a point is of the model, and the
+    # stress there of the mesh
     touching = np.isin(mesh["cells"], mesh["interface_nodes"]).any(axis=1)
     nodes = np.setdiff1d(mesh["cells"], mesh["cells"][touching])
     return ModalStress.of_mesh(stress_of(path, f_omega), displaced, mesh["points"], nodes)

@@ -144,7 +144,7 @@ def stiff_is_rigid(evidence: Evidence) -> Finding:
 
     The largest of the four is the distance. K is the highest of the study, because a high E alone makes a
     coating rigid-plastic, not rigid. The claim holds if the stiffest E is within a distance of 1 and no
-    softer one from E = 5 on is nearer; partly, if one is so. The margin is that to the first border.
+    softer one from E = 5 on is nearer; partly, if one is so. The margin is what is left to the first limit.
     """
     keys = itertools.product(paper.ORDERS, paper.HARDLY)
     peaks = pd.DataFrame({key: _offset(evidence, *key) for key in keys}).dropna()  # coatings with all four
