@@ -147,6 +147,16 @@ def test_growing_run_is_followed_further(study, blade):
 
 
 @pytest.mark.extras
+def test_the_run_with_its_stress_is_the_run(study, blade):
+    asked = study.run("2nd", E=2, K=0.5, f_omega=0.19)
+    run, stressed = (br.simulate(blade, asked, stress=stress) for stress in (False, True))
+    assert run.stress is None
+    assert stressed.attributes["stress_last_von_mises"] == stressed.stress.last["von_mises"]
+    for name in ("wear", "radial_displacement", "revolution_peak", "spectrum_amplitude"):
+        np.testing.assert_array_equal(stressed.stored.data[name], run.stored.data[name])
+
+
+@pytest.mark.extras
 def test_a_row_tells_of_each_blade(study, blade):
     row = br.Row.even(3, length=[0.0, 5e-5, -4e-3], frequency=[0.0, 0.01, 0.0])
     row_run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3), row=row)

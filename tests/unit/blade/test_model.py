@@ -60,6 +60,11 @@ def test_reduced_frequencies_are_those_of_the_oscillators(oscillators):
     assert reduced_frequencies(oscillators, 0.0)[-1] == pytest.approx(30.0)
 
 
+def test_the_radius_of_the_tip_is_the_distance_from_the_axis(blade):
+    moved = dataclasses.replace(blade, node_position=blade.node_position + np.array([1.0, 0.0, 0.0]))
+    assert moved.tip_radius == pytest.approx(0.65)
+
+
 def test_turn_about_the_axis_of_rotation_has_its_angle_as_slope():
     """On a tip of 15 by 3 nodes on a cylinder, staggered, whose middle row has the interface."""
     along, across = np.meshgrid(np.linspace(-0.04, 0.04, 15), np.linspace(-4e-3, 4e-3, 3), indexing="ij")

@@ -23,6 +23,14 @@ def test_shape_is_the_scaled_sum_of_nodal_diameters():
     np.testing.assert_allclose(shape(inverse, angle), expected, atol=1e-7)
 
 
+def test_gap_closes_to_clearance_less_interference_at_the_lobes():
+    """Eq. (7), and opens by twice the amplitude of the one nodal diameter between them."""
+    angle = np.linspace(0, 2 * np.pi, 3601)
+    found = gap(Casing("2nd", (2,), (1.0,), 1e-3, 0.36e-3, 0.0), 50e-6, angle)
+    assert (found.min(), found.max()) == pytest.approx((50e-6 - 0.36e-3, 50e-6 - 0.36e-3 + 2e-3))
+    assert angle[found.argmin()] % np.pi == pytest.approx(0.0)
+
+
 def test_two_bumps_leave_the_gap_of_the_open_benchmark():
     """Piollet, Nyssen and Batailly (2019), eqs. (3) and (4): mean gap 0.356 mm, relative width 0.15."""
     mean = 0.356e-3

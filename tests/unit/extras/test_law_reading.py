@@ -1,7 +1,10 @@
+import numba
+import numpy as np
 import pytest
+from numba.core.errors import NumbaError
 from study_fixtures import changed
 
-from bladerub.contact.spec import PLASTIC
+from bladerub.contact.spec import PLASTIC, ElementLaw
 from bladerub.extras import law_reading
 from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
@@ -41,3 +44,14 @@ def test_a_name_that_is_only_annotated_is_not_there():
         law_reading.parameters_of(f"{law}elastic_force: object\n")
     for line in ("elastic_force: object = element", "if True:\n    elastic_force = element"):
         assert law_reading.parameters_of(f"{law}{line}\n").keys() == {"slope"}
+
+
+def test_the_innermost_of_what_the_compiler_repeats_for_each_caller_is_told():
+    inner = numba.njit(lambda x: np.vander(x) + x.missing)
+    outer = numba.njit(lambda x: inner(x) + 1.0)
+    with pytest.raises(NumbaError) as refused:
+        outer(1.0)
+    problem = str(law_reading.compile_error(ElementLaw("own"), refused.value))
+    assert problem.startswith("law own: cannot be compiled (")
+    assert "outer" not in problem
+    assert problem.count(f'test_law_reading.py", line {inner.py_func.__code__.co_firstlineno}); ') == 1

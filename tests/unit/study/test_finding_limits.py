@@ -295,12 +295,8 @@ def judged_run(evidence, id_, tilted_f6=0.18, **run):
     [
         ("abgh", {"growth_per_revolution": 0.02, "growth_low": 0.0101, "divergent": True}, "yes", 1e-4),
         ("abgh", {"growth_per_revolution": 0.0101, "growth_low": 0.01}, "partly", 0.0),
-        (
-            "abgh",
-            {"growth_per_revolution": 0.0101, "growth_low": 0.0101},
-            "no",
-            1e-4,
-        ),  # a beat that came again
+        # a beat that came again
+        ("abgh", {"growth_per_revolution": 0.0101, "growth_low": 0.0101}, "no", 1e-4),
         ("abgh", {"growth_per_revolution": 0.0, "growth_low": -0.02, "saturating": True}, "partly", -0.03),
         ("abgh", DIVERGENT, "yes", np.inf),
         ("cdij", {"growth_low": 0.004}, "yes", 0.006),

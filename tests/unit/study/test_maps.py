@@ -1,12 +1,14 @@
 import dataclasses
+import math
 
 import numpy as np
 import pytest
 import xarray
 
+from bladerub.io import tables
 from bladerub.io.checksum import file_checksum
 from bladerub.io.errors import DamagedFile
-from bladerub.study import grid, maps, store
+from bladerub.study import divergence, grid, maps, peaks, store
 from bladerub.study.growth import confirmation_spec
 from bladerub.study.manifest import (
     ListedFile,
@@ -166,3 +168,16 @@ def test_a_run_that_is_damaged_missing_or_stale_is_named(collect, folder, which)
     path.unlink()
     with pytest.raises(OSError, match=rf"No such file .*{name}"):
         collect()
+
+
+def test_the_rigid_casing_is_in_the_tables_as_a_coating_of_infinite_moduli(config, make_map, tmp_path):
+    case = grid.CoatingCase.rigid("2nd", 0.15)
+    maps.write_map(tmp_path / "map.h5", make_map(case, {4: (0.31, 1e-4), 6: (0.2, 1e-4)}, lobes=0), {})
+    coating = maps.read_map(tmp_path / "map.h5")
+    assert coating.case == case
+    for table in (peaks.table, divergence.table):
+        tables.write(tmp_path / "table.csv", table(config, [coating]), {})
+        read = tables.read(tmp_path / "table.csv")
+        assert (np.isinf(read.E) & np.isinf(read.K)).all()
+        assert read.theta.to_numpy() == pytest.approx(math.atan(0.15))
+        assert not read.drop(columns=["E", "K"]).isna().any(axis=None)

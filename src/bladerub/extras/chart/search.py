@@ -39,7 +39,7 @@ def compute(
     searches: Mapping[CoatingCase, Search],
     solve: Callable[[Sequence[RunSpec]], Iterable[tuple[int, RunResult, float]]],
 ) -> Iterator[tuple[CoatingCase, ChartPoint]]:
-    """Carry out searches together by `solve`; yield each point, with its coating, as it is complete."""
+    """Search together by `solve`, a `Solver.simulate_many` of one blade; yield each point when complete."""
     pending = {case: next(generator) for case, generator in searches.items()}
     while pending:
         solved = sorted(solve([spec for specs in pending.values() for spec in specs]))

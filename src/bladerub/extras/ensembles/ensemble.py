@@ -78,7 +78,7 @@ SHARED = tuple(name for name in maps.DATASETS if name not in (*OVER_SPEED, "wear
 """Datasets that are the same of all."""
 
 REFINED = 2
-"""Steps of a refined run, over those of a run of the study: members that it counts as."""
+"""Steps of a refined run over those of a run of the study, and so the members that it costs as much as."""
 
 _REFINED = "refined_"
 _FINER = "with a quarter of the tolerance of the step"
@@ -101,7 +101,7 @@ def expected_cost(config: Config, case: CoatingCase) -> int:
 
 
 def refined(spec: RunSpec) -> RunSpec:
-    """Return the run with a quarter of its tolerance, and half of steps that it has by itself."""
+    """Return the run with a quarter of its tolerance, and half of the steps that it would have by itself."""
     steps, longest = 2 * spec.steps_per_element, spec.max_time_step / 2
     return replace(spec, tolerance=spec.tolerance / 4, steps_per_element=steps, max_time_step=longest)
 

@@ -39,7 +39,7 @@ def arcs(n_elements: int) -> np.ndarray:
 
 
 def kept_orders(f_omega: np.ndarray, order: np.ndarray, max_frequency: float) -> np.ndarray:
-    """Count the engine orders `order` (m,) that are kept at the speeds `f_omega` (n,): up to both ends."""
+    """Count the entries of `order` (m,) kept at each `f_omega` (n,): to `max_frequency` and `LAST_ORDER`."""
     last = np.maximum(LAST_ORDER, max_frequency / f_omega) + order[1] - order[0]  # the bin around it is drawn
     return np.searchsorted(order, last, side="right")
 

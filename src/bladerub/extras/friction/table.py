@@ -20,7 +20,10 @@ _COMPARED = ["peak", "reversed", "status"]
 
 
 def table(pairs: Iterable[tuple[str | Path, str | Path]], revolutions: int) -> pd.DataFrame:
-    """Compare the runs of pairs of manifests, the second by Coulomb's law, in the last `revolutions`."""
+    """Compare runs speed by speed, with `COLUMNS`; peaks are those of the last `revolutions`.
+
+    A pair is the manifest of a coating with a force of constant direction, and that of it by Coulomb's law.
+    """
     tables = []
     for paths in pairs:
         constant, coulomb = (_runs(Path(path), revolutions) for path in paths)

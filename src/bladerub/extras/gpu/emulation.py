@@ -26,7 +26,7 @@ def is_possible() -> bool:
 
 
 def run(works: Iterable[Work], real: str = "double") -> Iterator[Output]:
-    """Carry out the loop in numbers of the C++ type `real`; what it keeps in arrays are doubles."""
+    """Carry out the loop in the C++ type `real`, with doubles in arrays; `OSError` without a compiler."""
     return (_run(work, real) for work in works)
 
 

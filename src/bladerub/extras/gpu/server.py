@@ -78,8 +78,8 @@ def _compute(requests: "queue.SimpleQueue[_Request]", run: Device) -> None:
 
 
 def main() -> None:
-    """Serve the GPU at the socket of the command line, in a folder of its own, until standard input ends."""
-    address, emulated = Path(sys.argv[1]), "--emulated" in sys.argv
+    """Serve the GPU at the socket of the command line until standard input ends; delete its folder then."""
+    address, emulated = Path(sys.argv[1]), "--emulated" in sys.argv  # the latter for tests without a GPU
     try:
         with exit_on_error():
             if not emulated:

@@ -23,7 +23,13 @@ class Gpu(Solver):
     wants_many = True
 
     def simulate_many(
-        self, blade: ReducedBlade, specs: Sequence[RunSpec], _: int, report: Callable[[str], None], *__: Any
+        self,
+        blade: ReducedBlade,
+        specs: Sequence[RunSpec],
+        threads: int = 1,
+        report: Callable[[str], None] = lambda line: None,
+        progress: Any = None,
+        longer: Any = None,
     ) -> Iterator[Solved]:
         """Yield each run as it is done; raises `bladerub.extras.gpu.device.NoGpuError` without a GPU."""
         from bladerub.extras.gpu import batch, server  # load the compiler: who plans runs alone does without

@@ -63,7 +63,7 @@ def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
     duration = abs(spec.f_end - start) / n_steps_of_speed / spec.rate
     revolutions = spec.run.revolutions + np.concatenate([[0.0], np.cumsum(speeds * f1_hz * duration)])
     cuts = np.append(0, np.rint(revolutions * n_elements).astype(int))
-    cuts[-1] = max(1, -(-cuts[-1] // n_elements)) * n_elements
+    cuts[-1] = max(1, -(-cuts[-1] // n_elements)) * n_elements  # to the end of the last revolution
     planned = map(SpeedStep, [start, *speeds.tolist()], cuts[:-1].tolist(), cuts[1:].tolist())
     return [step for step in planned if step.last > step.first]
 

@@ -60,7 +60,7 @@ def notes(results: str, laid_over: LaidOver) -> list[str]:
 
 
 def start(workflow: Any, results: str, laid_over: LaidOver) -> None:
-    """Record the config of new results; `BadInput` for targets that would follow on another config."""
+    """Record the config of new results; `BadInput` for targets that would mix with results of another one."""
     targets = set(workflow.dag_settings.targets) - {"all"}
     if targets and (made_with := _made_with(results, laid_over)):
         raise BadInput(

@@ -77,7 +77,10 @@ def _measure(path: Path, analysis: Analysis) -> dict[str, Any]:
 
 
 def combinations(table: pd.DataFrame) -> pd.DataFrame:
-    """Sum up the draws of each combination: medians, quantiles, and the 95 % interval of the median."""
+    """Sum up the draws of each combination: medians, quantiles, and the 95 % interval of the median.
+
+    The amplitude of a row that ended early is that of its last revolutions, as far as they were made.
+    """
     rows = []
     for what, of_what in table.groupby(WHAT, sort=False):
         counts = of_what["wear_harmonic"].value_counts()

@@ -65,7 +65,7 @@ def left(plan: Plan, wave: int, measured: pd.DataFrame, positions: pd.DataFrame)
 
 
 def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
-    """Compare the targets with the paper; `measured` is of all sets, `predictions` of later ones."""
+    """Compare targets with the paper; `measured` begins with the study, `predictions` are of later sets."""
     rows, implausible = [], waves.implausibility(measured)
     for name, values in measured.items():
         target, of_target = TARGETS[name], predictions[predictions.target == name].set_index("set")

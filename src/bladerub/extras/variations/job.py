@@ -69,7 +69,7 @@ def cases(
 # Threads take longer than the splines of a blade's sections
 @threadpool_limits.wrap(limits=1, user_api="blas")
 def check(study: Config, plan: Plan) -> None:
-    """Check every set whose position the plan has, those that are listed together, of the drawn the first."""
+    """Raise `ConfigError` for sets that make no study: all that are listed, or the first that is drawn."""
     jobs, positions = plan.jobs().values(), None
     if plan.candidates:
         positions = dict(enumerate(plan.listed(study)))

@@ -24,9 +24,7 @@ from bladerub.study.peaks import amplitude_in_window, order_amplitude
 EQUAL, AT_LEAST, AT_MOST = "equal", "at least", "at most"
 
 _READING = 0.005  # half a unit of the second digit of the speeds that the paper prints
-_OTHER_BLADE = (
-    paper.NEAR / 2
-)  # a speed of a blade with another C1: `paper.NEAR`, which a claim allows, is two of these
+_OTHER_BLADE = paper.NEAR / 2  # a speed of a blade with another C1: claims allow two of these, `NEAR`
 _SHIFT = 0.002  # of one speed against another of the same blade: the step of the study
 _SPEED = float(np.hypot(_READING, _OTHER_BLADE))
 _RATIO = 0.05  # of amplitudes: what a claim counts as partly below its border

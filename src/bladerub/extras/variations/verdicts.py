@@ -145,7 +145,7 @@ def _at(maps: Iterable[CoatingMap], f_omega: np.ndarray) -> list[CoatingMap]:
 
 
 def margins(config: Config, map_paths: Iterable[str | Path], rom_accuracy_path: str | Path) -> pd.DataFrame:
-    """Judge every claim in every variation of the study: a row each, as of findings, if it can be judged."""
+    """Judge every claim in every variation: a row each, as of findings; the log has what cannot be judged."""
     rom_accuracy, judged = read_rom_accuracy(rom_accuracy_path), []
     varied = variations(config, map(read_map, map_paths))
     if not varied[STUDY][1]:

@@ -159,7 +159,10 @@ def misfit(measured: pd.DataFrame) -> pd.Series:
 
 
 def choose(plan: Plan, sets: pd.DataFrame, measured: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
-    """Choose the sets in which most parts hold, the study's own first, and draw neighbours of each."""
+    """Choose the study's own set and those in which most parts hold, by misfit among equals; draw neighbours.
+
+    `sets` has the position of each factor, `measured` the targets, and `verdicts` a row for each part.
+    """
     misfits = misfit(measured)
     yes = (verdicts.holds == YES).groupby(verdicts["set"]).sum()
     ranked = pd.DataFrame({"yes": -yes, "misfit": misfits}).drop(OWN).sort_values(["yes", "misfit"])

@@ -63,7 +63,7 @@ def finer_bars(blade: ReducedBlade, config: Config, peaks: pd.DataFrame) -> pd.D
 
 
 def more_nodes(config: Config, peaks: pd.DataFrame) -> pd.DataFrame:
-    """Find these peaks with more interface nodes; ``cpu_s`` is of the run at the study's speed of a peak."""
+    """Find the same peaks with more interface nodes; ``cpu_s``: of the run at the study's speed of a peak."""
     blades = {n: blade_with(config, n) for n in NODES}
     models = {n: Model(blade, partial(_along_chord, blade)) for n, blade in blades.items()}
     seconds = []

@@ -18,6 +18,7 @@ from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
 from bladerub.extras.blades.matrices import check_definite, import_matrices
+from bladerub.extras.blades.origin import check
 from bladerub.extras.blades.report import matrix_report
 from bladerub.extras.blades.settings import Source
 from bladerub.extras.export.blade_files import write_fe_matrices
@@ -207,6 +208,13 @@ def test_broken_folders_are_refused_with_file_and_culprit(folder, change, said):
     with pytest.raises(BadInput, match=said) as caught:
         imported(folder)
     assert str(caught.value).startswith(str(folder))
+
+
+def test_keys_that_do_not_go_together_are_refused():
+    with pytest.raises(ValueError, match=r"^file: missing"):
+        check(Source())
+    with pytest.raises(ValueError, match=r"^root_set = R: must not be given beside matrices"):
+        check(Source(matrices="m", root_set="R"))
 
 
 def test_one_negative_eigenvalue_among_many_is_found():

@@ -4,10 +4,7 @@ import pytest
 from study_fixtures import changed
 
 from bladerub.extras import inventory
-from bladerub.extras.cores import (
-    Costs,
-    costs_of,
-)
+from bladerub.extras.cores import Costs, costs_of
 from bladerub.extras.cost.forecast import forecast
 from bladerub.extras.cost.jobs import COLUMNS, table
 

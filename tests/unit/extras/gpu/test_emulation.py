@@ -142,6 +142,12 @@ def test_runs_of_several_sizes_share_a_kernel(cupy, blade, spec, change):
     assert Kernel.grids == [(3,), (1,)]
 
 
+def test_without_a_gpu_it_is_said(cupy):
+    cupy.cuda.runtime.getDeviceCount.side_effect = RuntimeError("no driver")
+    with pytest.raises(device.NoGpuError, match="no driver"):
+        device.connect()
+
+
 def test_the_window_is_wide_enough_other_sizes_have_the_same_program_and_what_can_not_be_done_is_said(
     blade, spec, change
 ):

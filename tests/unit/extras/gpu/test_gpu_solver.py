@@ -1,3 +1,4 @@
+import inspect
 import threading
 import time
 from multiprocessing.connection import Listener
@@ -15,6 +16,7 @@ from bladerub.extras.gpu.device import NoGpuError
 from bladerub.extras.many_runs import solve_all
 from bladerub.extras.rows.spec import Row
 from bladerub.study.plan import planned_run
+from bladerub.study.solver import Solver
 
 
 @pytest.fixture
@@ -44,6 +46,11 @@ def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
     config = config.replaced("solver.device", "cpu")
     assert key() != of_gpu
     assert key(Row.even(2)) == of_row  # which the processor computes in any case
+
+
+def test_it_is_called_as_that_of_the_processor():
+    own, other = (inspect.signature(kind.simulate_many).parameters for kind in (solver.Gpu, Solver))
+    assert list(own) == list(other)  # the chart names some
 
 
 @pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")

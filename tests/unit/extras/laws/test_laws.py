@@ -53,6 +53,18 @@ def test_the_module_of_a_law_that_plugs_in_counts_for_the_key():
             parameters_of(source)
 
 
+@pytest.mark.parametrize(
+    ("name", "key", "value"), [("viscoplastic", "viscosity", 0), ("brittle", "break_strain", 1e9)]
+)
+def test_without_viscosity_or_breaking_a_law_is_plastic(name, key, value):
+    depth = np.linspace(-1e-5, 1e-4, 101)
+    module, element, *found = pressed(described_law(name, {key: value}), depth)
+    plastic, plastic_element, force, increment = pressed(PLASTIC, depth)
+    found.append(module.dissipated_energy(element, WORN, increment, 0.0, force))
+    dissipated = plastic.dissipated_energy(plastic_element, WORN, increment, 0.0, force)
+    np.testing.assert_allclose(found, [force, increment, dissipated], rtol=1e-12)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "law",
