@@ -7,6 +7,7 @@ from typing import Annotated, NamedTuple
 import numpy as np
 
 from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -117,8 +118,11 @@ def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: 
 
 
 def read(path: str | Path) -> ChartPoint:
-    """Read a point written by `write`; raises `OSError` if the file is missing or damaged."""
+    """Read a point written by `write`; raises `OSError` if the file is missing, damaged or none."""
     data, attributes = hdf5.read(path)
-    arrays = {name: data[name] for name in _ARRAYS} | {"uniform": data["uniform"].astype(bool)}
-    measures = {name: data[name] for name in MEASURES}
-    return ChartPoint(CoatingCase.described(attributes), **arrays, measures=measures)
+    try:
+        arrays = {name: data[name] for name in _ARRAYS} | {"uniform": data["uniform"].astype(bool)}
+        measures = {name: data[name] for name in MEASURES}
+        return ChartPoint(CoatingCase.described(attributes), **arrays, measures=measures)
+    except KeyError as error:
+        raise DamagedFile(f"{path}: not a point of the chart, {error} is missing") from error

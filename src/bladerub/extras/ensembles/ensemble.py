@@ -27,7 +27,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.extras.ensembles.settings import Ensemble as Settings
 from bladerub.extras.study_runs import chosen, judged, on_lobes, with_history
 from bladerub.io import hdf5
-from bladerub.io.errors import BadInput
+from bladerub.io.errors import BadInput, DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.io.values import Comparable
@@ -171,10 +171,14 @@ def write(path: str | Path, ensemble: Ensemble, origin: Mapping[str, str]) -> No
 def read(path: str | Path) -> Ensemble:
     """Read what `write` has written; raises `OSError`, naming the file, if it is missing or damaged."""
     data, attributes = hdf5.read(path)
-    case, start, shared = CoatingCase.described(attributes), data["start"], {n: data[n] for n in SHARED}
-    of_runs = [{name: data[name][member] for name in OVER_SPEED} for member in range(len(start))]
-    of_runs.append({name: data[_REFINED + name] for name in OVER_SPEED})
-    runs = [CoatingMap(case=case, wear_node=None, **shared, **values) for values in of_runs]
+    try:
+        shared = {name: data[name] for name in SHARED}
+        case, start = CoatingCase.described(attributes), data["start"]
+        of_members = [{name: data[name][member] for name in OVER_SPEED} for member in range(len(start))]
+        of_refined = {name: data[_REFINED + name] for name in OVER_SPEED}
+    except KeyError as error:
+        raise DamagedFile(f"{path}: no ensembles, {error} is missing") from error
+    runs = [CoatingMap(case=case, wear_node=None, **shared, **values) for values in (*of_members, of_refined)]
     return Ensemble(start, tuple(runs[:-1]), runs[-1])
 
 

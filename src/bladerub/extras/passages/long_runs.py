@@ -15,6 +15,7 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.extras.study_runs import nearest_speed
 from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -97,7 +98,10 @@ def make(
 def read(path: str | Path) -> LongRuns:
     """Read what `make` has written; raises `OSError`, naming the file, if it is missing or damaged."""
     data, about = hdf5.read(path)
-    return LongRuns(CoatingCase.described(about), **{name: data[name] for name in DATASETS})
+    try:
+        return LongRuns(CoatingCase.described(about), **{name: data[name] for name in DATASETS})
+    except KeyError as error:
+        raise DamagedFile(f"{path}: no long runs, {error} is missing") from error
 
 
 def stops(config: Config) -> list[int]:

@@ -11,6 +11,7 @@ from bladerub.blade.model import ReducedBlade, interface_node
 from bladerub.extras.passages.speed_sweep import SweepResult, simulate_sweep
 from bladerub.extras.passages.sweep_grid import sweep_spec
 from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.settings.study import Config
@@ -110,8 +111,11 @@ def _spectra(result: SweepResult, window: int, max_order: float) -> tuple[np.nda
 def read(path: str | Path) -> SpeedSweep:
     """Read a sweep written by `make`; raises `OSError`, naming the file, if it is missing or damaged."""
     data, about = hdf5.read(path)
-    values = about | data | {"case": CoatingCase.described(about), "max_wear": float(data["wear"].max())}
-    return SpeedSweep(**{field.name: values[field.name] for field in fields(SpeedSweep)})
+    try:
+        values = about | data | {"case": CoatingCase.described(about), "max_wear": float(data["wear"].max())}
+        return SpeedSweep(**{field.name: values[field.name] for field in fields(SpeedSweep)})
+    except KeyError as error:
+        raise DamagedFile(f"{path}: not a speed sweep, {error} is missing") from error
 
 
 def table(
