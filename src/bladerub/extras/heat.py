@@ -16,8 +16,14 @@ from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
 
 CASING, E, K, F_OMEGA = "2nd", 2.0, 0.5, 0.19  # the run: a coating at the speed of its peak on order 6
-LAYER = {"heat_capacity": 2e6, "conductivity": 5.0, "heated_depth": 1e-4, "friction_share": 0.5}
-LAYER |= {"softening_rise": 500.0, "softening_exponent": 1.0}
+LAYER = {
+    "heat_capacity": 2e6,
+    "conductivity": 5.0,
+    "heated_depth": 1e-4,
+    "friction_share": 0.5,
+    "softening_rise": 500.0,
+    "softening_exponent": 1.0,
+}
 """Of the thermal law, SI units: assumed for sprayed aluminium with polyester (config/heat.yaml)."""
 VARIED = ("conductivity", "friction_share", "softening_rise")
 CASES = (

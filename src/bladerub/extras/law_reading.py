@@ -26,8 +26,15 @@ from bladerub.io.folders import PACKAGE, study_folder
 
 _REASON = re.compile("can't resolve|No implementation|Unknown attribute|Invalid use")
 
-CONTRACT = ("Element", "element", "return_mapping", "tangent", "elastic_force", "stored_energy")
-CONTRACT += ("dissipated_energy",)  # what the module of a law has for the program
+CONTRACT = (  # what the module of a law has for the program
+    "Element",
+    "element",
+    "return_mapping",
+    "tangent",
+    "elastic_force",
+    "stored_energy",
+    "dissipated_energy",
+)
 
 
 class Parameter(NamedTuple):

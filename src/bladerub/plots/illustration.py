@@ -16,8 +16,8 @@ _ELEMENT_COLOUR = "#d5dbe3"
 _LABEL = {"facecolor": "white", "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
 _PLASTIC = {"color": DARK, "linewidth": 2.4, "solid_capstyle": "butt", "label": "plastic loading"}
 _ELASTIC = {"color": ORANGE, "lw": 1.4, "ls": (0, (4, 1.5)), "label": "elastic: unloading, reloading"}
-_REMAINING = {"color": BLUE, "marker": "v", "ms": 6, "ls": "none"}
-_REMAINING |= {"label": r"plastic strain $\varepsilon^p$ that remains (wear)"}
+_REMAINS = r"plastic strain $\varepsilon^p$ that remains (wear)"
+_REMAINING = {"color": BLUE, "marker": "v", "ms": 6, "ls": "none", "label": _REMAINS}
 
 
 @styled

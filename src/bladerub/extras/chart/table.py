@@ -27,8 +27,12 @@ COATING = ["casing", "E", "K", "theta"]
 STRESS = [*COATING, "alternating", "f_alternating"]
 """Columns of ``chart_stress.csv``."""
 
-LIMITED = {"amplitude": "peak", "wear": "deepest_wear", "divergent_share": "divergent_share"}
-LIMITED["fatigue"] = "alternating"
+LIMITED = {
+    "amplitude": "peak",
+    "wear": "deepest_wear",
+    "divergent_share": "divergent_share",
+    "fatigue": "alternating",
+}
 """Column of the chart that each of ``chart.limits`` is for; the last is of its stress."""
 
 _CHOSEN = ["safe", "broken", "peak", "f_at_peak", "worn_volume", "deepest_wear", "divergent_share"]

@@ -40,8 +40,12 @@ ERROR = 4 / 3
 
 _ENDS = ("median", "low", "high")
 
-PEAK_COLUMNS = ["draws", *(f"{name}_{end}" for name in ("f_peak", "amplitude") for end in _ENDS)]
-PEAK_COLUMNS += ["f_peak_error", "amplitude_error"]
+PEAK_COLUMNS = [
+    "draws",
+    *(f"{name}_{end}" for name in ("f_peak", "amplitude") for end in _ENDS),
+    "f_peak_error",
+    "amplitude_error",
+]
 """Columns of ``peak_bands.csv`` besides those of ``peaks.csv``."""
 
 RUN_COLUMNS = [

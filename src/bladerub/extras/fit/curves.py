@@ -16,9 +16,12 @@ import pandas as pd
 from bladerub.extras import cells
 from bladerub.io.errors import BadInput
 
-# units of each column, in SI
-UNITS = {"strain": {"1": 1.0, "%": 0.01}, "stress": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}}
-UNITS |= {"rate": {"1/s": 1.0}}
+UNITS = {
+    "strain": {"1": 1.0, "%": 0.01},
+    "stress": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "rate": {"1/s": 1.0},
+}
+"""Units of each column, in SI."""
 _DEFAULT = {"strain": "1", "rate": "1/s"}  # stress has none: Pa and MPa are both usual
 _MOST = {"strain": 1.0, "stress": 1e12, "rate": 1e9}  # of a coating, in SI: beyond, the unit is another
 FEWEST_ROWS, FEWEST_OF_CURVE = 5, 3

@@ -12,8 +12,8 @@ from bladerub.contact import friction, gap, tip
 
 # What the time loop calls: functions of a law, of the tip, the gap and the direction of the force
 LAW = ("return_mapping", "tangent", "elastic_force", "stored_energy", "dissipated_energy")
-OF_CONTACT = (tip.relief, tip.coverage, tip.mean_coverage, tip.highest)
-OF_CONTACT += (gap.penetration, friction.contact_force)
+_OF_TIP = (tip.relief, tip.coverage, tip.mean_coverage, tip.highest)
+OF_CONTACT = (*_OF_TIP, gap.penetration, friction.contact_force)
 
 _RECORDS = {"element": "Element", "tip": "Profile"}  # by the name of an argument; others are numbers
 _VECTOR_FUNCTIONS = {"absolute", "maximum", "minimum", "where", "sqrt"}

@@ -76,8 +76,13 @@ def _limit(axes: Axes, case: CoatingCase, swept: Sequence[SpeedSweep], constant:
     axes.set_ylim(0, 1.08e3 * greatest(*bounded))
 
 
-_VERDICTS = {"free": "#ffffff", "steady": "#dfe7ee", "saturating": BLUE}
-_VERDICTS |= {"divergent": ORANGE, "unbounded": RED}
+_VERDICTS = {
+    "free": "#ffffff",
+    "steady": "#dfe7ee",
+    "saturating": BLUE,
+    "divergent": ORANGE,
+    "unbounded": RED,
+}
 _HATCHES = {"divergent": "//", "unbounded": "xx"}
 _FLOOR = 1e-3  # lowest amplitude that is drawn, mm: below it a vibration has died out
 _GROWTH = {True: {"color": DARK, "linewidth": 0.7}, False: {"color": GREY, "linewidth": 0.5}}

@@ -25,14 +25,29 @@ from bladerub.study.wear import dominant_harmonic, lobes
 WHAT = ["casing", "E", "K", "theta", "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling"]
 """Columns that name a combination, as `bladerub.extras.rotor.plan.described` does."""
 
-MEASURED = ["row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share"]
-MEASURED += ["wear_harmonic_share"]
+MEASURED = [
+    "row_amplitude",
+    "amplification",
+    "longest_amplification",
+    "longest_share",
+    "largest_share",
+    "wear_harmonic_share",
+]
 """Columns of draws whose distribution is of interest."""
 
 _STATISTICS = ("median", "low", "high", "p05", "p95")
-COLUMNS = [*WHAT, "rows", "unbounded_rows", "divergent_rows"]
-COLUMNS += [f"{name}_{statistic}" for name in MEASURED for statistic in _STATISTICS]
-COLUMNS += ["wear_harmonic", "wear_harmonic_rows", "lobes_lowest", "lobes_highest", "energy_residual"]
+COLUMNS = [
+    *WHAT,
+    "rows",
+    "unbounded_rows",
+    "divergent_rows",
+    *(f"{name}_{statistic}" for name in MEASURED for statistic in _STATISTICS),
+    "wear_harmonic",
+    "wear_harmonic_rows",
+    "lobes_lowest",
+    "lobes_highest",
+    "energy_residual",
+]
 """Columns of the table of combinations."""
 
 

@@ -32,8 +32,8 @@ _MODES, _SHARE = 3, 0.7
 _CASE = ("casing", "E", "K", "theta", "law")
 _PEAK = ("order", "f_peak", "amplitude")
 _OF_LAST = ("von_mises", "von_mises_x", "von_mises_y", "von_mises_z", "principal", "alternating")
-COLUMNS = [*_CASE, *_PEAK, "status", "rotation_von_mises", "start_up_von_mises"]
-COLUMNS += [f"last_{name}" for name in _OF_LAST]
+_BEFORE = ("status", "rotation_von_mises", "start_up_von_mises")
+COLUMNS = [*_CASE, *_PEAK, *_BEFORE, *(f"last_{name}" for name in _OF_LAST)]
 """Columns of ``stress.csv``, described in ``columns.csv``."""
 
 
